@@ -1,0 +1,1 @@
+# cmake --install: programs, headers, and find_package(Lore) with Lore::lore.

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lore {
+
+/// A TOML table read strictly: every key must be asked for, or reject_unknown() complains with the nearest known one.
+///
+/// Each getter throws a UsageError that names the file, the line and the key if the value is absent (`required…`), of
+/// another type, not finite or out of range. toml++ stays behind this door.
+class TomlTable {
+public:
+    /// `name` is what error messages call the document: a path, or "--set".
+    static TomlTable parse(std::string_view text, std::string name);
+    static TomlTable read_file(std::string const& path);
+
+    bool has(std::string_view key) const;
+    /// Keys in the order of the document.
+    std::vector<std::string> keys() const;
+
+    std::optional<double> number(std::string_view key, double least, double most) const;
+    std::optional<std::int64_t> integer(std::string_view key, std::int64_t least, std::int64_t most) const;
+    std::optional<bool> boolean(std::string_view key) const;
+    std::optional<std::string> string(std::string_view key) const;
+    std::optional<std::vector<std::string>> strings(std::string_view key) const;
+    std::optional<std::vector<double>> numbers(std::string_view key) const;
+    std::optional<TomlTable> table(std::string_view key) const;
+    std::vector<TomlTable> tables(std::string_view key) const;   ///< array of tables; empty if absent
+
+    double required_number(std::string_view key, double least, double most) const;
+    std::string required_string(std::string_view key) const;
+    std::vector<double> required_numbers(std::string_view key, std::size_t count) const;
+    TomlTable required_table(std::string_view key) const;
+
+    /// Throws if the table holds a key that no getter has asked for.
+    void reject_unknown() const;
+    /// A UsageError that names this document and, if the key is there, its line.
+    [[noreturn]] void fail(std::string_view key, std::string_view reason, std::string_view remedy = "") const;
+
+private:
+    struct Node;
+    explicit TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+    std::shared_ptr<Node> node_;
+};
+
+} // namespace lore

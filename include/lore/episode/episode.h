@@ -1,0 +1,52 @@
+#pragma once
+
+#include <lore/arena/world.h>
+#include <lore/network/network.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace lore {
+
+struct EpisodeConfig {
+    int steps = 4000;            ///< Length of an evaluation [steps]. Paper: 4000.
+    int stop_when_still = 0;     ///< Stop after this many cumulative steps without movement; 0: never (the predecessor: 100).
+};
+
+/// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
+///
+/// Per step: one word with the binary channels and six floats with the continuous ones. 26 bytes a step, 104 kB an
+/// evaluation of 4000 steps.
+struct Trace {
+    /// Bits 0..8: the binary channels in the order of binary_channels; bits 9..14: the continuous channels of
+    /// continuous_channels thresholded for the Hamming descriptor (range sensor nearer than half its range: value >
+    /// 0.5; effector > 0.5). Bit 15 is 0.
+    std::vector<std::uint16_t> bits;
+    /// [step][6], continuous_channels order.
+    std::vector<float> values;
+    std::vector<Pose> poses;      ///< before the move of that step
+    WorldState final_world;
+
+    int steps() const { return static_cast<int>(bits.size()); }
+};
+
+/// One step as an observer sees it; `world` is after the action, `next` after the move.
+struct StepView {
+    int step;
+    Pose const& pose;
+    Sensors const& sensors;
+    Effectors const& effectors;
+    WorldState const& world;
+    RobotState const& next;
+};
+
+/// One controller in one world, one step after the other: the definition of an evaluation that every faster path must
+/// equal to the bit. Allocates nothing inside the loop.
+/// `observe` is called after each step. Returns the world's final state.
+WorldState run_episode(Arena const&, Network const&, EpisodeConfig const&, std::function<void(StepView const&)> const& observe);
+
+/// The same, recorded.
+Trace record_episode(Arena const&, Network const&, EpisodeConfig const&);
+
+} // namespace lore

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <lore/behavior/distances.h>
+#include <lore/knowledge/shaping.h>
+#include <lore/network/genome.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lore {
+
+/// All that an individual's life in the arena leaves behind; the trace itself dies where it was born.
+struct Evaluation {
+    int    balls = 0;                    ///< delivered into the basket
+    double shaping = no_feature_value;   ///< RS; -1 without a knowledge base
+    Descriptors descriptors;
+    friend bool operator==(Evaluation const&, Evaluation const&) = default;
+};
+
+/// What every rank needs to evaluate; immutable, equal on all ranks.
+struct EvaluationContext {
+    Arena arena;
+    EpisodeConfig episode;
+    std::optional<Shaper> shaper;
+};
+
+/// The plain definition: one controller, one step at a time, from its recorded trace.
+Evaluation evaluate_plainly(EvaluationContext const&, Genome const&);
+/// The fast path: many at once, in lanes; equal to the plain one to the bit.
+std::vector<Evaluation> evaluate_batch(EvaluationContext const&, std::span<Genome const* const>);
+
+/// Genomes in, evaluations out, whoever does the work. Evolution sees only this.
+class Evaluator {
+public:
+    virtual ~Evaluator() = default;
+    /// evaluations[i] belongs to genomes[i].
+    virtual std::vector<Evaluation> evaluate(std::span<Genome const* const>) = 0;
+    /// Fills every pair (i, j) with i >= known, j < i. The default does it here; a farm shares the rows.
+    virtual void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&);
+};
+
+/// In this process alone.
+class SerialEvaluator : public Evaluator {
+public:
+    explicit SerialEvaluator(EvaluationContext context) : context_(std::move(context)) {}
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>) override;
+
+private:
+    EvaluationContext context_;
+};
+
+} // namespace lore

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <lore/evolution/pareto.h>
+
+#include <string_view>
+
+namespace lore {
+
+/// How sorts and cuts order equals (docs/model.md). Discrete balls make this matter more than one would think.
+enum class TieRule : std::uint8_t { random, older, younger };
+std::string_view name(TieRule);
+TieRule tie_rule(std::string_view name);   ///< throws UsageError
+
+/// Smaller comes first. random: from the stream (seed, tie, generation, id); older, younger: by birth.
+std::uint64_t tie_key(TieRule, std::uint64_t seed, int generation, IndividualId);
+
+/// Parents of `count` children by binary tournaments; every member takes part in exactly two when count equals the
+/// population. The winner dominates, else has the larger crowding distance, else a coin.
+std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed, int generation);
+
+/// What a joint ranking found.
+struct Ranking {
+    std::vector<int> survivors;      ///< indices into the pool, front by front, in a front by crowding then tie key
+    std::vector<double> crowding;    ///< of every member of the pool
+    int fronts = 0;
+};
+/// Whole fronts until one must be cut by crowding distance.
+Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> tie_keys, int survivors);
+
+} // namespace lore

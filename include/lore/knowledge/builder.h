@@ -1,0 +1,32 @@
+#pragma once
+
+#include <lore/knowledge/index.h>
+
+namespace lore {
+
+/// Algorithm 1, one individual at a time. The caller brings the individuals in order: the best-of-run first, then its
+/// parent, and so on to the founder; or all ever evaluated in order of birth ("KB all").
+class KnowledgeBuilder {
+public:
+    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex>);
+    /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
+    void add_individual(std::span<Window const>, double balls);
+    int features() const;
+    std::uint64_t individuals() const;
+    std::uint64_t windows() const;
+    std::uint64_t matched() const;   ///< windows that were in the base already
+    /// Provenance::individuals and ::windows are filled in here.
+    KnowledgeBase finish(Provenance) &&;
+
+private:
+    KnowledgeConfig config_;
+    std::unique_ptr<FeatureIndex> index_;
+    std::vector<std::uint16_t> bits_;
+    std::vector<float> values_;
+    std::vector<double> sums_;
+    std::vector<std::uint32_t> counts_;
+    std::vector<std::uint64_t> last_exhibitor_;   ///< per feature, so that an individual counts once
+    std::uint64_t individuals_ = 0, windows_ = 0, matched_ = 0;
+};
+
+} // namespace lore

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <lore/knowledge/window.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// Where a knowledge base came from; goes into its file and is shown by `lore-kb info`.
+struct Provenance {
+    std::string made_by;                ///< command line and version
+    std::string kind;                   ///< "lineage", "all", "random", "reduced"
+    std::vector<std::string> sources;   ///< runs or knowledge bases it was made from
+    std::string task;                   ///< the arena's and task's name
+    std::uint64_t individuals = 0;      ///< whose windows were read
+    std::uint64_t windows = 0;
+    int best_balls = 0;                 ///< of the best-of-run whose lineage it is
+};
+
+/// Behavioural features and what those who showed them earned (paper, "Knowledge building process").
+///
+/// Feature i has the window (bits, values)[i], the rewards' sum and the number of individuals that exhibited it; its
+/// value is sum / count, or what randomize gave it. Features are numbered in the order in which they were first met.
+/// Flat arrays that may live in a mapped file shared by the ranks of one node; immutable, cheap to copy.
+class KnowledgeBase {
+public:
+    KnowledgeConfig const& config() const { return parts_.config; }
+    Provenance const& provenance() const { return parts_.provenance; }
+    int size() const { return static_cast<int>(parts_.values.size()); }
+
+    Window window(int feature) const;                                ///< valid as long as the knowledge base
+    double value(int feature) const { return parts_.values[static_cast<std::size_t>(feature)]; }   ///< r_i [balls]
+    double reward_sum(int feature) const { return parts_.reward_sums[static_cast<std::size_t>(feature)]; }
+    std::uint32_t count(int feature) const { return parts_.counts[static_cast<std::size_t>(feature)]; }   ///< individuals that exhibited it
+    std::span<double const> values() const { return parts_.values; }
+
+    /// The parts of a knowledge base; `keep_alive` owns the memory behind the spans (vectors, or a mapped file).
+    struct Parts {
+        KnowledgeConfig config;
+        Provenance provenance;
+        std::span<std::uint16_t const> bits;   ///< [feature][step]
+        std::span<float const> windows;        ///< [feature][step][6]
+        std::span<double const> values;        ///< [feature]
+        std::span<double const> reward_sums;   ///< [feature]
+        std::span<std::uint32_t const> counts; ///< [feature]
+        std::shared_ptr<void const> keep_alive;
+    };
+    explicit KnowledgeBase(Parts);
+    Parts const& parts() const { return parts_; }
+
+private:
+    Parts parts_;
+};
+
+} // namespace lore

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <lore/core/channels.h>
+#include <lore/episode/episode.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lore {
+
+/// How windows are cut and matched.
+struct KnowledgeConfig {
+    int   window_length   = 20;     ///< Steps per window [steps]. Paper: T = 20.
+    float match_threshold = 1.83f;  ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
+};
+
+/// window_length consecutive steps of one evaluation, the unit of knowledge (paper, "Behavioral features").
+///
+/// A view, valid as long as its Trace. Distance between two windows: Frobenius over the window_length x 15 values; the
+/// binary channels contribute the number of differing bits, the continuous ones the squares of their differences.
+struct Window {
+    std::span<std::uint16_t const> bits;   ///< per step, as Trace::bits; only bits 0..8 (the binary channels) count
+    std::span<float const> values;         ///< [step][6], as Trace::values
+};
+
+/// The non-overlapping windows of a trace in order; steps that do not fill a last window are left out.
+std::vector<Window> windows_of(Trace const&, int window_length);
+
+/// Squared distance, the plain definition. The sum's order is part of it: the squares go to 16 partial sums by their
+/// index modulo 16, which are then added pairwise (8 + 8, 4 + 4, 2 + 2, 1 + 1), and the differing bits last.
+float squared_distance(Window const&, Window const&);
+
+} // namespace lore

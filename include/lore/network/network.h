@@ -1,0 +1,38 @@
+#pragma once
+
+#include <lore/network/genome.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace lore {
+
+/// A controller as the simulator sees it: a Genome compiled to flat arrays, immutable.
+///
+/// Hidden neurons from which no output can be reached are left out; the others keep their order. Values of one tick
+/// live in one array: the 12 inputs, then the hidden neurons. A neuron's sum runs over its sources in increasing
+/// index, starting from zero: this order is part of the definition, because float addition is not associative.
+struct Network {
+    int hidden_count = 0;
+    std::vector<std::uint16_t> first;   ///< per target (3 outputs, then hidden), first entry in source/weight; size targets + 1
+    std::vector<std::uint8_t>  source;  ///< 0..11 input, 12.. hidden
+    std::vector<float>         weight;  ///< decoded, [-5, 5]
+    std::vector<float>         bias;    ///< per target: decoded bias times 5, as the activation uses it
+
+    int target_count() const { return effector_count + hidden_count; }
+    int edge_count() const { return static_cast<int>(source.size()); }
+};
+
+Network compile(Genome const&);
+
+/// What a tick changes.
+struct NetworkState {
+    std::array<float, most_hidden> hidden{};   ///< outputs of the hidden neurons at the previous tick; 0 at the start
+};
+
+/// One synchronous tick: y = 1 / (1 + exp(5 b - sum w x)); every neuron reads the present inputs and the hidden
+/// neurons' outputs of the previous tick, so an input-output edge has no delay and each hidden neuron adds one tick.
+void tick(Network const&, std::span<float const, sensor_count> inputs, NetworkState&, std::span<float, effector_count> outputs);
+
+} // namespace lore

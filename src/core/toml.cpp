@@ -1,0 +1,196 @@
+#include <lore/core/toml.h>
+
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+namespace lore {
+
+/// One table of a document. `document` keeps the parsed whole alive.
+struct TomlTable::Node {
+    std::shared_ptr<toml::table const> document;
+    toml::table const*                 table = nullptr;
+    std::string                        name;
+    std::string                        path;   ///< "evolution." for the keys of [evolution]
+    mutable std::set<std::string, std::less<>> asked;
+
+    toml::node const* find(std::string_view key) const {
+        asked.emplace(key);
+        return table->get(key);
+    }
+};
+
+TomlTable TomlTable::parse(std::string_view text, std::string name) {
+    try {
+        auto document = std::make_shared<toml::table const>(toml::parse(text, name));
+        auto node = std::make_shared<Node>();
+        node->document = document;
+        node->table = document.get();
+        node->name = std::move(name);
+        return TomlTable{std::move(node)};
+    } catch (toml::parse_error const& error) {
+        throw UsageError(fmt::format("cannot read {}", name),
+                         fmt::format("line {}: {}", error.source().begin.line, error.description()),
+                         "Mend the TOML syntax.");
+    }
+}
+
+TomlTable TomlTable::read_file(std::string const& path) {
+    std::ifstream file{path, std::ios::binary};
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf()))
+        throw UsageError(fmt::format("cannot read {}", path), "no such file, not readable, or empty", "Check the path.");
+    return parse(text.str(), path);
+}
+
+void TomlTable::fail(std::string_view key, std::string_view reason, std::string_view remedy) const {
+    toml::node const* at = key.empty() ? nullptr : node_->table->get(key);
+    std::string const where = at != nullptr && at->source().begin.line != 0
+        ? fmt::format("{}, line {}", node_->name, at->source().begin.line) : node_->name;
+    throw UsageError(fmt::format("{}: {}{}", where, node_->path, key), reason, remedy);
+}
+
+bool TomlTable::has(std::string_view key) const { return node_->find(key) != nullptr; }
+
+std::vector<std::string> TomlTable::keys() const {
+    std::vector<std::pair<toml::source_position, std::string>> found;
+    for (auto const& [key, value] : *node_->table) found.emplace_back(key.source().begin, std::string{key.str()});
+    std::stable_sort(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+    std::vector<std::string> names;
+    for (auto& entry : found) names.push_back(std::move(entry.second));
+    return names;
+}
+
+std::optional<double> TomlTable::number(std::string_view key, double least, double most) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    std::optional<double> const value = node->is_number() ? node->value<double>() : std::nullopt;
+    if (!value) fail(key, "a number is expected");
+    if (!std::isfinite(*value)) fail(key, "the value is not finite");
+    if (*value < least || *value > most) fail(key, fmt::format("{} is outside {} .. {}", *value, least, most));
+    return value;
+}
+
+std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_t least, std::int64_t most) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    std::optional<std::int64_t> const value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (!value) fail(key, "a whole number is expected");
+    if (*value < least || *value > most) fail(key, fmt::format("{} is outside {} .. {}", *value, least, most));
+    return value;
+}
+
+std::optional<bool> TomlTable::boolean(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_boolean()) fail(key, "true or false is expected");
+    return node->value<bool>();
+}
+
+std::optional<std::string> TomlTable::string(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    if (!node->is_string()) fail(key, "a string in quotes is expected");
+    return node->value<std::string>();
+}
+
+std::optional<std::vector<std::string>> TomlTable::strings(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    toml::array const* const array = node->as_array();
+    if (array == nullptr) fail(key, "an array of strings is expected");
+    std::vector<std::string> values;
+    for (toml::node const& element : *array) {
+        if (!element.is_string()) fail(key, "an array of strings is expected");
+        values.push_back(*element.value<std::string>());
+    }
+    return values;
+}
+
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    toml::array const* const array = node->as_array();
+    if (array == nullptr) fail(key, "an array of numbers is expected");
+    std::vector<double> values;
+    for (toml::node const& element : *array) {
+        if (!element.is_number()) fail(key, "an array of numbers is expected");
+        values.push_back(*element.value<double>());
+        if (!std::isfinite(values.back())) fail(key, "a value is not finite");
+    }
+    return values;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return std::nullopt;
+    toml::table const* const inner = node->as_table();
+    if (inner == nullptr) fail(key, "a table is expected");
+    auto child = std::make_shared<Node>();
+    child->document = node_->document;
+    child->table = inner;
+    child->name = node_->name;
+    child->path = fmt::format("{}{}.", node_->path, key);
+    return TomlTable{std::move(child)};
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) return {};
+    toml::array const* const array = node->as_array();
+    if (array == nullptr) fail(key, "an array of tables is expected");
+    std::vector<TomlTable> found;
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        toml::table const* const inner = array->get(i)->as_table();
+        if (inner == nullptr) fail(key, "an array of tables is expected");
+        auto child = std::make_shared<Node>();
+        child->document = node_->document;
+        child->table = inner;
+        child->name = node_->name;
+        child->path = fmt::format("{}{}[{}].", node_->path, key, i);
+        found.push_back(TomlTable{std::move(child)});
+    }
+    return found;
+}
+
+double TomlTable::required_number(std::string_view key, double least, double most) const {
+    auto const value = number(key, least, most);
+    if (!value) fail(key, "the key is missing", "Add it.");
+    return *value;
+}
+
+std::string TomlTable::required_string(std::string_view key) const {
+    auto value = string(key);
+    if (!value) fail(key, "the key is missing", "Add it.");
+    return *std::move(value);
+}
+
+std::vector<double> TomlTable::required_numbers(std::string_view key, std::size_t count) const {
+    auto values = numbers(key);
+    if (!values) fail(key, "the key is missing", "Add it.");
+    if (values->size() != count) fail(key, fmt::format("{} numbers are expected, not {}", count, values->size()));
+    return *std::move(values);
+}
+
+TomlTable TomlTable::required_table(std::string_view key) const {
+    auto value = table(key);
+    if (!value) fail(key, "the table is missing", "Add it.");
+    return *std::move(value);
+}
+
+void TomlTable::reject_unknown() const {
+    for (std::string const& key : keys()) {
+        if (node_->asked.contains(key)) continue;
+        std::vector<std::string_view> const known(node_->asked.begin(), node_->asked.end());
+        std::string const meant = nearest_word(key, known.data(), known.size());
+        fail(key, "unknown key", meant.empty() ? "Remove it." : fmt::format("Did you mean '{}{}'?", node_->path, meant));
+    }
+}
+
+} // namespace lore
