@@ -25,3 +25,35 @@ function(lore_module)
   endif()
   set_property(GLOBAL APPEND PROPERTY LORE_MODULES ${target})
 endfunction()
+
+# lore_kernel(episode lanes_kernel.cpp): compiles the source into module lore_episode once per instruction set.
+#
+# Inside it LORE_ISA_NAMESPACE names the namespace (isa_baseline, isa_v3, isa_v4) and LORE_LANES the native width in
+# floats. A kernel source must not include headers with inline functions that other files use too (the standard
+# containers, std::function): the linker keeps one copy of each, and it might be the one for the larger set. Take
+# pointers and plain structs; mark own helpers always_inline or static.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
+  set(LORE_ISAS baseline v3 v4)
+else()
+  set(LORE_ISAS baseline)
+endif()
+set(LORE_ISA_FLAGS_v3 -march=x86-64-v3)
+set(LORE_ISA_FLAGS_v4 -march=x86-64-v4 -mprefer-vector-width=512)
+set(LORE_ISA_LANES_baseline 4)
+set(LORE_ISA_LANES_v3 8)
+set(LORE_ISA_LANES_v4 16)
+list(LENGTH LORE_ISAS LORE_ISA_COUNT)
+target_compile_definitions(lore_flags INTERFACE $<BUILD_INTERFACE:LORE_ISA_COUNT=${LORE_ISA_COUNT}>)
+
+function(lore_kernel module source)
+  get_filename_component(stem ${source} NAME_WE)
+  foreach(isa ${LORE_ISAS})
+    set(objects lore_${module}_${stem}_${isa})
+    add_library(${objects} OBJECT ${source})
+    target_link_libraries(${objects} PRIVATE lore_flags)
+    target_compile_options(${objects} PRIVATE ${LORE_ISA_FLAGS_${isa}})
+    target_compile_definitions(${objects} PRIVATE LORE_ISA_NAMESPACE=isa_${isa} LORE_LANES=${LORE_ISA_LANES_${isa}})
+    set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_sources(lore_${module} PRIVATE $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+endfunction()
