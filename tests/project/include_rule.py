@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""A module includes only modules of a lower level, and each foreign library enters by its own door.
+
+    tests/project/include_rule.py SOURCE_DIR
+
+Prints one line a breach and returns 1, or prints nothing.
+"""
+import pathlib
+import re
+import sys
+
+LEVELS = [["core", "statistics"], ["network", "arena"], ["episode"], ["behavior", "knowledge"], ["evaluation"],
+          ["evolution"], ["archive"], ["cluster", "figure"], ["experiment"], ["campaign"]]
+LEVEL = {module: level for level, row in enumerate(LEVELS) for module in row}
+
+# Who may include a foreign header: modules, or single files. Programs (tools/) may include CLI11 and fmt.
+DOORS = {
+    r"mpi\.h": ["cluster"],
+    r"boost/(archive|serialization)/.*": ["archive"],
+    r"boost/math/.*": ["statistics"],
+    r"flann/.*": ["knowledge/flann_index.cpp"],
+    r"toml\+\+/.*": ["core/toml.cpp"],
+    r"Random123/.*": ["core/random.cpp"],
+    r"librsvg/.*|cairo.*": ["figure"],
+    r"zstd.*": ["archive"],
+    r"xxhash\.h": ["archive"],
+    r"CLI/.*": ["tools"],
+}
+
+root = pathlib.Path(sys.argv[1])
+breaches = []
+for file in sorted([*root.glob("include/lore/*/*.h"), *root.glob("src/*/*"), *root.glob("tools/**/*.cpp"), *root.glob("tools/**/*.h")]):
+    if file.suffix not in {".h", ".cpp"}:
+        continue
+    relative = file.relative_to(root)
+    module = "tools" if relative.parts[0] == "tools" else relative.parts[2 if relative.parts[0] == "include" else 1]
+    place = f"{module}/{file.name}"
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        include = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        if not include:
+            continue
+        header = include.group(1)
+        own = re.match(r"lore/(\w+)/", header)
+        if own and module != "tools":
+            other = own.group(1)
+            if other != module and LEVEL[other] >= LEVEL[module]:
+                breaches.append(f"{relative}:{number}: {module} includes {header}, which is not of a lower level")
+        for pattern, doors in DOORS.items():
+            if re.fullmatch(pattern, header) and module not in doors and place not in doors:
+                breaches.append(f"{relative}:{number}: {header} may be included only by {', '.join(doors)}")
+
+print("\n".join(breaches), end="\n" if breaches else "")
+sys.exit(1 if breaches else 0)
