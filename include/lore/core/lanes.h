@@ -1,0 +1,205 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+/// Marks every function that kernels share with plain code. A kernel's source is compiled once per instruction set, and
+/// the linker keeps one copy of each out-of-line inline function: it might be the AVX-512 one, and baseline code would
+/// die of it. A function that is never out of line has no copy to be mixed up.
+#define LORE_INLINE [[gnu::always_inline]] inline
+
+namespace lore {
+
+template <class T, int W>
+struct LanesOf { typedef T type __attribute__((vector_size(sizeof(T) * W))); };
+
+/// W values of T that are computed on at once: a vector of the GCC/clang extension, with its operators + - * / and
+/// comparisons, which give a mask of W integers, 0 or -1. W should be the native width of the instruction set
+/// (LORE_LANES): g++ turns wider vectors into code ten times slower.
+template <class T, int W>
+using Lanes = typename LanesOf<T, W>::type;
+
+/// What the templates of core/math.h need to know of float and of Lanes<float, W>.
+template <class F>
+struct LaneTraits {
+    static constexpr int width = sizeof(F) / sizeof(float);
+    using Int  = Lanes<std::int32_t, width>;
+    using Mask = Int;
+};
+template <>
+struct LaneTraits<float> {
+    static constexpr int width = 1;
+    using Int  = std::int32_t;
+    using Mask = bool;
+};
+template <class F>
+using IntOf = typename LaneTraits<F>::Int;
+template <class F>
+using MaskOf = typename LaneTraits<F>::Mask;
+
+/// Operations on lanes that the operators lack; each means the same for a scalar and for every lane of a vector.
+namespace lanes {
+
+template <class To, class From>
+LORE_INLINE To cast_bits(From const& from) {
+    static_assert(sizeof(To) == sizeof(From));
+    To to;
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+}
+
+template <class V, class T>
+LORE_INLINE V load(T const* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+template <class V, class T>
+LORE_INLINE void store(T* to, V const& v) { std::memcpy(to, &v, sizeof v); }
+
+/// All lanes equal to `value`.
+template <class V, class T>
+LORE_INLINE V all_of(T value) {
+    if constexpr (std::is_arithmetic_v<V>) return static_cast<V>(value);
+    else return value - V{};
+}
+
+/// mask ? a : b, lane by lane.
+template <class M, class V>
+LORE_INLINE V select(M const& mask, V const& a, V const& b) { return mask ? a : b; }
+
+/// a < b ? a : b; b where either is NaN.
+template <class V>
+LORE_INLINE V min(V const& a, V const& b) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_min_ps((__m512)a, (__m512)b);
+#endif
+#if defined(__AVX__)
+    if constexpr (std::is_same_v<V, Lanes<float, 8>>) return (V)_mm256_min_ps((__m256)a, (__m256)b);
+#endif
+#if defined(__SSE2__)
+    if constexpr (std::is_same_v<V, Lanes<float, 4>>) return (V)_mm_min_ps((__m128)a, (__m128)b);
+#endif
+    return a < b ? a : b;
+}
+
+/// a > b ? a : b; b where either is NaN.
+template <class V>
+LORE_INLINE V max(V const& a, V const& b) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_max_ps((__m512)a, (__m512)b);
+#endif
+#if defined(__AVX__)
+    if constexpr (std::is_same_v<V, Lanes<float, 8>>) return (V)_mm256_max_ps((__m256)a, (__m256)b);
+#endif
+#if defined(__SSE2__)
+    if constexpr (std::is_same_v<V, Lanes<float, 4>>) return (V)_mm_max_ps((__m128)a, (__m128)b);
+#endif
+    return a > b ? a : b;
+}
+
+template <class F>
+LORE_INLINE F abs(F const& x) { return cast_bits<F>(cast_bits<IntOf<F>>(x) & 0x7fffffff); }
+
+/// Correctly rounded, as the scalar square root.
+template <class F>
+LORE_INLINE F sqrt(F const& x) {
+    if constexpr (std::is_same_v<F, float>) return __builtin_sqrtf(x);
+    else {
+#if defined(__AVX512F__)
+        if constexpr (LaneTraits<F>::width == 16) return (F)_mm512_sqrt_ps((__m512)x);
+#endif
+#if defined(__AVX__)
+        if constexpr (LaneTraits<F>::width == 8) return (F)_mm256_sqrt_ps((__m256)x);
+#endif
+#if defined(__SSE2__)
+        if constexpr (LaneTraits<F>::width == 4) return (F)_mm_sqrt_ps((__m128)x);
+#endif
+        F root{};
+        for (int lane = 0; lane < LaneTraits<F>::width; ++lane) root[lane] = __builtin_sqrtf(x[lane]);
+        return root;
+    }
+}
+
+/// Towards zero. Precondition: |x| < 2^31.
+template <class F>
+LORE_INLINE IntOf<F> truncate(F const& x) {
+    if constexpr (std::is_same_v<F, float>) return static_cast<std::int32_t>(x);
+    else return __builtin_convertvector(x, IntOf<F>);
+}
+
+template <class F>
+LORE_INLINE F to_float(IntOf<F> const& i) {
+    if constexpr (std::is_same_v<F, float>) return static_cast<float>(i);
+    else return __builtin_convertvector(i, F);
+}
+
+/// The nearest integer, halves to even, as float and as integer at the cost of two additions. Precondition: |x| < 2^22.
+template <class F>
+struct Rounded { F value; IntOf<F> integer; };
+template <class F>
+LORE_INLINE Rounded<F> round(F const& x) {
+    constexpr float magic = 12582912.0f;   // 1.5 * 2^23: the sum's last mantissa bit is worth 1
+    F const sum = x + magic;
+    return {sum - magic, cast_bits<IntOf<F>>(sum) - 0x4b400000};
+}
+
+/// Bit i of the result: lane i of the mask.
+template <class M>
+LORE_INLINE std::uint32_t mask_bits(M const& mask) {
+    if constexpr (std::is_same_v<M, bool>) return mask ? 1u : 0u;
+    else {
+        constexpr int width = sizeof(M) / sizeof(std::int32_t);
+#if defined(__AVX512DQ__)
+        if constexpr (width == 16) return static_cast<std::uint32_t>(_mm512_movepi32_mask((__m512i)mask));
+#endif
+#if defined(__AVX__)
+        if constexpr (width == 8) return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)mask));
+#endif
+#if defined(__SSE2__)
+        if constexpr (width == 4) return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask));
+#endif
+        std::uint32_t bits = 0;
+        for (int lane = 0; lane < width; ++lane) bits |= (mask[lane] ? 1u : 0u) << lane;
+        return bits;
+    }
+}
+
+template <class M>
+LORE_INLINE bool any(M const& mask) { return mask_bits(mask) != 0; }
+template <class M>
+LORE_INLINE bool all(M const& mask) {
+    if constexpr (std::is_same_v<M, bool>) return mask;
+    else return mask_bits(mask) == (1ull << (sizeof(M) / sizeof(std::int32_t))) - 1;
+}
+
+/// table[index], lane by lane; T is float or std::int32_t.
+template <class T, class I>
+LORE_INLINE auto gather(T const* table, I const& index) {
+    if constexpr (std::is_same_v<I, std::int32_t>) return table[index];
+    else {
+        constexpr int width = sizeof(I) / sizeof(std::int32_t);
+        using V = Lanes<T, width>;
+#if defined(__AVX512F__)
+        if constexpr (width == 16) return (V)_mm512_i32gather_epi32((__m512i)index, table, 4);
+        else
+#endif
+#if defined(__AVX2__)
+        if constexpr (width == 8) return (V)_mm256_i32gather_epi32(reinterpret_cast<int const*>(table), (__m256i)index, 4);
+        else
+#endif
+        {
+            V v{};
+            for (int lane = 0; lane < width; ++lane) v[lane] = table[index[lane]];
+            return v;
+        }
+    }
+}
+
+} // namespace lanes
+} // namespace lore
