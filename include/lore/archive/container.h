@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,15 @@ using Bytes = std::vector<std::byte>;
 
 /// Kinds of files Lore writes in containers; the number is in the file.
 enum class FileKind : std::uint32_t { lineage = 1, checkpoint = 2, knowledge_base = 3, all_individuals = 4, genome = 5 };
+std::string_view name(FileKind);
+
+/// The format that this build writes, and the newest that it reads. Every older one stays readable.
+inline constexpr std::uint32_t container_version = 1;
+/// A payload starts at this offset of its file, so that arrays of a mapped payload are aligned like their file.
+inline constexpr std::size_t container_header_size = 64;
+
+/// Whether the payload is zstd-compressed; a file that is to be mapped stays plain.
+enum class Packing : std::uint8_t { compressed, plain };
 
 /// Every binary file of Lore: magic, format version, kind, byte order, payload length, flags and checksum (XXH3-64) in
 /// front of a payload that is zstd-compressed where that pays. All of it is checked before anyone parses the payload;
@@ -19,11 +30,22 @@ enum class FileKind : std::uint32_t { lineage = 1, checkpoint = 2, knowledge_bas
 ///
 /// Writing is atomic: temporary file in the same directory, fsync, rename, fsync of the directory. On any failure the
 /// former file is still there, whole.
-void write_container(std::string const& path, FileKind, std::span<std::byte const> payload);
+void write_container(std::string const& path, FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);
 /// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
 Bytes read_container(std::string const& path, FileKind expected);
 /// The same on bytes in memory, for tests and fuzzing; `name` is what errors call them.
-Bytes seal(FileKind, std::span<std::byte const> payload);
+Bytes seal(FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);
 Bytes unseal(std::span<std::byte const> file, FileKind expected, std::string_view name);
+
+/// The payload of a checked file. Of a plain one it is the mapped file itself, shared through the page cache by all
+/// processes of a node; of a compressed one a private copy. Valid as long as keep_alive.
+struct MappedPayload {
+    std::span<std::byte const> bytes;
+    std::shared_ptr<void const> keep_alive;
+};
+MappedPayload map_container(std::string const& path, FileKind expected);
+
+/// What the header of a file says of its kind; for `lore-kb verify`. Throws Error if it is none of Lore's.
+FileKind kind_of_file(std::string const& path);
 
 } // namespace lore
