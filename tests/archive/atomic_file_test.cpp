@@ -1,6 +1,6 @@
 #include <lore/archive/atomic_file.h>
 
-#include "archive/scratch.h"
+#include "support/scratch.h"
 
 #include <lore/core/error.h>
 
