@@ -1,0 +1,43 @@
+#include <lore/statistics/bootstrap.h>
+
+#include <lore/core/error.h>
+#include <lore/core/random.h>
+#include <lore/statistics/quantiles.h>
+
+#include <algorithm>
+
+namespace lore {
+
+MeanBand bootstrap_mean_band(std::span<std::vector<double> const> curves, BootstrapConfig const& config) {
+    if (curves.empty()) throw Error("cannot band a mean curve", "there is no curve", "Give at least one run.");
+    std::size_t const columns = curves.front().size();
+    for (auto const& curve : curves)
+        if (curve.size() != columns)
+            throw Error("cannot band a mean curve", "the curves' lengths differ", "Cut them to the shortest.");
+
+    // How often each run is drawn, decided once: columns of one draw belong to the same runs.
+    std::size_t const runs = curves.size();
+    auto const resamples = static_cast<std::size_t>(std::max(1, config.resamples));
+    std::vector<double> times_drawn(resamples * runs, 0.0);
+    for (std::size_t r = 0; r < resamples; ++r) {
+        Stream rng{config.seed, Purpose::bootstrap, static_cast<std::uint32_t>(r)};
+        for (std::size_t k = 0; k < runs; ++k) times_drawn[r * runs + rng.below(static_cast<std::uint32_t>(runs))] += 1;
+    }
+
+    MeanBand band;
+    std::vector<double> column(runs), means(resamples);
+    for (std::size_t c = 0; c < columns; ++c) {
+        for (std::size_t k = 0; k < runs; ++k) column[k] = curves[k][c];
+        for (std::size_t r = 0; r < resamples; ++r) {
+            double sum = 0;
+            for (std::size_t k = 0; k < runs; ++k) sum += times_drawn[r * runs + k] * column[k];
+            means[r] = sum / static_cast<double>(runs);
+        }
+        band.mean.push_back(mean(column));
+        band.low.push_back(quantile(means, (1 - config.level) / 2));
+        band.high.push_back(quantile(means, (1 + config.level) / 2));
+    }
+    return band;
+}
+
+} // namespace lore
