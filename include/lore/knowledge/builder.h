@@ -8,19 +8,21 @@ namespace lore {
 /// parent, and so on to the founder; or all ever evaluated in order of birth ("KB all").
 class KnowledgeBuilder {
 public:
-    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex>);
+    /// `index` is empty and was made for the same configuration.
+    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index);
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
     void add_individual(std::span<Window const>, double balls);
-    int features() const;
-    std::uint64_t individuals() const;
-    std::uint64_t windows() const;
-    std::uint64_t matched() const;   ///< windows that were in the base already
+    int features() const { return static_cast<int>(counts_.size()); }
+    std::uint64_t individuals() const { return individuals_; }
+    std::uint64_t windows() const { return windows_; }
+    std::uint64_t matched() const { return matched_; }   ///< windows that were in the base already
     /// Provenance::individuals and ::windows are filled in here.
     KnowledgeBase finish(Provenance) &&;
 
 private:
     KnowledgeConfig config_;
     std::unique_ptr<FeatureIndex> index_;
+    std::unique_ptr<FeatureSearch> search_;
     std::vector<std::uint16_t> bits_;
     std::vector<float> values_;
     std::vector<double> sums_;

@@ -4,14 +4,17 @@
 
 namespace lore {
 
-/// Knowledge bases made from knowledge bases. Each returns a new one, its provenance naming the sources.
+/// Knowledge bases made from knowledge bases. Each returns a new one with the old one's provenance, to whose derivation
+/// it adds a line; kind becomes "random" or "reduced".
 
-/// "KB random": values uniform between the smallest and the largest value of `base`.
+/// "KB random": values uniform between the smallest and the largest value of `base`, drawn in the order of the
+/// features from the stream (seed, randomize). Reward sums and counts stay what they were.
 KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed);
 /// The `count` features of highest value (ties: the lower number), in their old order.
 KnowledgeBase keep_top(KnowledgeBase const& base, int count);
 KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value);
-/// The features of `base` that match some feature in every one of `others` (paper, Conclusion: future work).
+/// The features of `base` that match, by its threshold, some feature in every one of `others` (paper, Conclusion:
+/// future work). Throws UsageError if their window lengths differ.
 KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others);
 
 } // namespace lore

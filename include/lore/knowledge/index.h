@@ -3,29 +3,46 @@
 #include <lore/knowledge/knowledge_base.h>
 
 #include <memory>
+#include <limits>
 #include <string_view>
 
 namespace lore {
 
 struct Match {
     int   feature = -1;            ///< -1: no feature within the threshold
-    float squared_distance = 0;    ///< to that feature; infinity if none
+    float squared_distance = std::numeric_limits<float>::infinity();   ///< to that feature; infinity if none
     bool found() const { return feature >= 0; }
+    friend bool operator==(Match const&, Match const&) = default;
 };
 
 enum class IndexKind : std::uint8_t { exact, flann };
 std::string_view name(IndexKind);
 IndexKind index_kind(std::string_view name);   ///< throws UsageError
 
-/// Finds the nearest feature of a growing set of windows. Copies what it needs.
+/// One user's way of asking an index: owns the scratch memory and the caches that make repeated questions cheap.
+///
+/// For one thread at a time (make one each), valid as long as its index, also while that index grows.
+class FeatureSearch {
+public:
+    virtual ~FeatureSearch() = default;
+    /// The nearest feature if it lies nearer than the threshold (strict; ties: the lowest number).
+    virtual Match match(Window const&) = 0;
+    /// match(), where only a feature worth more than `least` is of interest: anything else may be reported as none.
+    /// Precondition: FeatureIndex::set_values was called.
+    virtual Match match_above(Window const& window, double least) { (void)least; return match(window); }
+};
+
+/// Finds the nearest feature of a growing set of windows. Copies what it needs. Reading it (by searches, also from
+/// several threads) and adding to it exclude each other.
 class FeatureIndex {
 public:
     virtual ~FeatureIndex() = default;
-    /// Feature number = order of addition.
+    /// Feature number = order of addition. Precondition: values were not set yet.
     virtual void add(Window const&) = 0;
     virtual int size() const = 0;
-    /// The nearest feature if it lies nearer than the threshold (strict; ties: the lowest number).
-    virtual Match match(Window const&) const = 0;
+    virtual std::unique_ptr<FeatureSearch> search() const = 0;
+    /// What each feature is worth, once all are added; lets match_above pass over the others.
+    virtual void set_values(std::span<double const>) {}
 };
 
 /// The definition: every feature is compared.

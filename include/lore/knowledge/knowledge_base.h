@@ -14,11 +14,23 @@ namespace lore {
 struct Provenance {
     std::string made_by;                ///< command line and version
     std::string kind;                   ///< "lineage", "all", "random", "reduced"
+    std::string index;                  ///< "exact" or "flann": the index that found the matches while building
     std::vector<std::string> sources;   ///< runs or knowledge bases it was made from
+    std::vector<std::string> derivation;   ///< what was done to it since it was built, in order
     std::string task;                   ///< the arena's and task's name
     std::uint64_t individuals = 0;      ///< whose windows were read
     std::uint64_t windows = 0;
     int best_balls = 0;                 ///< of the best-of-run whose lineage it is
+    friend bool operator==(Provenance const&, Provenance const&) = default;
+};
+
+/// The arrays of a knowledge base while it is being made.
+struct KnowledgeArrays {
+    std::vector<std::uint16_t> bits;     ///< [feature][step]
+    std::vector<float> windows;          ///< [feature][step][6]
+    std::vector<double> values;          ///< [feature]
+    std::vector<double> reward_sums;     ///< [feature]
+    std::vector<std::uint32_t> counts;   ///< [feature]
 };
 
 /// Behavioural features and what those who showed them earned (paper, "Knowledge building process").
@@ -50,6 +62,8 @@ public:
         std::shared_ptr<void const> keep_alive;
     };
     explicit KnowledgeBase(Parts);
+    /// One that owns its arrays.
+    KnowledgeBase(KnowledgeConfig, Provenance, KnowledgeArrays);
     Parts const& parts() const { return parts_; }
 
 private:

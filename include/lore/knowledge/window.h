@@ -13,7 +13,14 @@ namespace lore {
 struct KnowledgeConfig {
     int   window_length   = 20;     ///< Steps per window [steps]. Paper: T = 20.
     float match_threshold = 1.83f;  ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
+
+    /// What squared distances are compared with, rounded once to float; every index uses this number.
+    float squared_threshold() const { return match_threshold * match_threshold; }
+    friend bool operator==(KnowledgeConfig const&, KnowledgeConfig const&) = default;
 };
+
+/// Bits of a step's word that are binary channels; the others belong to the Hamming descriptor.
+inline constexpr std::uint16_t window_bits_mask = (1u << binary_count) - 1;
 
 /// window_length consecutive steps of one evaluation, the unit of knowledge (paper, "Behavioral features").
 ///
@@ -27,8 +34,9 @@ struct Window {
 /// The non-overlapping windows of a trace in order; steps that do not fill a last window are left out.
 std::vector<Window> windows_of(Trace const&, int window_length);
 
-/// Squared distance, the plain definition. The sum's order is part of it: the squares go to 16 partial sums by their
-/// index modulo 16, which are then added pairwise (8 + 8, 4 + 4, 2 + 2, 1 + 1), and the differing bits last.
+/// Squared distance, the plain definition. Precondition: windows of equal length.
+/// The sum's order is part of it: the squares go to 16 partial sums by their index modulo 16, which are then added
+/// pairwise (8 + 8, 4 + 4, 2 + 2, 1 + 1), and the differing bits last.
 float squared_distance(Window const&, Window const&);
 
 } // namespace lore

@@ -1,0 +1,83 @@
+#include <lore/knowledge/derive.h>
+
+#include <lore/core/error.h>
+#include <lore/core/random.h>
+#include <lore/knowledge/index.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+template <class T> std::vector<T> copy_of(std::span<T const> items) { return {items.begin(), items.end()}; }
+
+KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, std::string what) {
+    KnowledgeArrays kept;
+    for (int const feature : features) {
+        Window const window = base.window(feature);
+        kept.bits.insert(kept.bits.end(), window.bits.begin(), window.bits.end());
+        kept.windows.insert(kept.windows.end(), window.values.begin(), window.values.end());
+        kept.values.push_back(base.value(feature));
+        kept.reward_sums.push_back(base.reward_sum(feature));
+        kept.counts.push_back(base.count(feature));
+    }
+    Provenance provenance = base.provenance();
+    provenance.kind = "reduced";
+    provenance.derivation.push_back(fmt::format("{}: {} of {} features", what, features.size(), base.size()));
+    return KnowledgeBase{base.config(), std::move(provenance), std::move(kept)};
+}
+
+} // namespace
+
+KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed) {
+    KnowledgeArrays arrays{copy_of(base.parts().bits), copy_of(base.parts().windows), copy_of(base.values()),
+                           copy_of(base.parts().reward_sums), copy_of(base.parts().counts)};
+    if (base.size() > 0) {
+        auto const [low, high] = std::minmax_element(base.values().begin(), base.values().end());
+        Stream rng{seed, Purpose::randomize};
+        for (double& value : arrays.values) value = rng.uniform(*low, *high);
+    }
+    Provenance provenance = base.provenance();
+    provenance.kind = "random";
+    provenance.derivation.push_back(fmt::format("values drawn at random with seed {}", seed));
+    return KnowledgeBase{base.config(), std::move(provenance), std::move(arrays)};
+}
+
+KnowledgeBase keep_top(KnowledgeBase const& base, int count) {
+    std::vector<int> features(static_cast<std::size_t>(base.size()));
+    std::iota(features.begin(), features.end(), 0);
+    std::stable_sort(features.begin(), features.end(), [&](int a, int b) { return base.value(a) > base.value(b); });
+    features.resize(std::min(features.size(), static_cast<std::size_t>(std::max(count, 0))));
+    std::sort(features.begin(), features.end());
+    return keep(base, features, fmt::format("top {}", count));
+}
+
+KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value) {
+    std::vector<int> features;
+    for (int i = 0; i < base.size(); ++i)
+        if (base.value(i) >= least_value) features.push_back(i);
+    return keep(base, features, fmt::format("value at least {}", least_value));
+}
+
+KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others) {
+    std::vector<int> features(static_cast<std::size_t>(base.size()));
+    std::iota(features.begin(), features.end(), 0);
+    for (KnowledgeBase const& other : others) {
+        if (other.config().window_length != base.config().window_length)
+            throw UsageError("the knowledge bases cannot be compared",
+                             fmt::format("their windows have {} and {} steps", base.config().window_length,
+                                         other.config().window_length),
+                             "Build them with one window length.");
+        auto const index = make_exact_index(base.config());
+        for (int i = 0; i < other.size(); ++i) index->add(other.window(i));
+        auto const search = index->search();
+        std::erase_if(features, [&](int feature) { return !search->match(base.window(feature)).found(); });
+    }
+    return keep(base, features, fmt::format("consensus with {} more", others.size()));
+}
+
+} // namespace lore

@@ -1,0 +1,76 @@
+#include <lore/knowledge/index.h>
+
+#include <lore/core/error.h>
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> index_names{"exact", "flann"};
+
+/// Keeps all features and compares every one.
+class ScanIndex : public FeatureIndex {
+public:
+    explicit ScanIndex(KnowledgeConfig const& config) : config_(config) {}
+
+    void add(Window const& window) override {
+        bits_.insert(bits_.end(), window.bits.begin(), window.bits.end());
+        values_.insert(values_.end(), window.values.begin(), window.values.end());
+        ++size_;
+    }
+    int size() const override { return size_; }
+    std::unique_ptr<FeatureSearch> search() const override;
+
+    Match match(Window const& window) const {
+        auto const length = static_cast<std::size_t>(config_.window_length);
+        Match nearest;
+        for (int feature = 0; feature < size_; ++feature) {
+            std::size_t const first = static_cast<std::size_t>(feature) * length;
+            Window const candidate{{bits_.data() + first, length},
+                                   {values_.data() + first * continuous_count, length * continuous_count}};
+            float const distance = squared_distance(window, candidate);
+            if (distance < nearest.squared_distance && distance < config_.squared_threshold())
+                nearest = {feature, distance};
+        }
+        return nearest;
+    }
+
+private:
+    KnowledgeConfig config_;
+    std::vector<std::uint16_t> bits_;
+    std::vector<float> values_;
+    int size_ = 0;
+};
+
+class ScanSearch : public FeatureSearch {
+public:
+    explicit ScanSearch(ScanIndex const& index) : index_(index) {}
+    Match match(Window const& window) override { return index_.match(window); }
+
+private:
+    ScanIndex const& index_;
+};
+
+std::unique_ptr<FeatureSearch> ScanIndex::search() const { return std::make_unique<ScanSearch>(*this); }
+
+} // namespace
+
+std::string_view name(IndexKind kind) { return index_names[static_cast<std::size_t>(kind)]; }
+
+IndexKind index_kind(std::string_view name) {
+    for (std::size_t i = 0; i < index_names.size(); ++i)
+        if (index_names[i] == name) return static_cast<IndexKind>(i);
+    throw UsageError(fmt::format("there is no index '{}'", name), "known are exact and flann", "Choose one of them.");
+}
+
+std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const& config) { return std::make_unique<ScanIndex>(config); }
+
+std::unique_ptr<FeatureIndex> make_index(IndexKind kind, KnowledgeConfig const& config) {
+    return kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config);
+}
+
+} // namespace lore
