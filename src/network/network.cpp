@@ -1,0 +1,80 @@
+#include <lore/network/network.h>
+
+#include <lore/core/math.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace lore {
+
+namespace {
+
+/// Per hidden neuron of the genome, its number in the Network, or -1 where no output can be reached from it.
+std::vector<int> number_useful_neurons(Genome const& genome) {
+    std::vector<bool> useful(static_cast<std::size_t>(first_hidden + genome.hidden_count()), false);
+    std::fill(useful.begin() + first_output, useful.begin() + first_hidden, true);
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (Edge const& edge : genome.edges)
+            if (useful[edge.target] && !useful[edge.source]) grows = useful[edge.source] = true;
+    }
+    std::vector<int> numbers;
+    int next = 0;
+    for (int h = 0; h < genome.hidden_count(); ++h)
+        numbers.push_back(useful[static_cast<std::size_t>(first_hidden + h)] ? next++ : -1);
+    return numbers;
+}
+
+} // namespace
+
+Network compile(Genome const& genome) {
+    assert(why_invalid(genome).empty());
+    std::vector<int> const numbers = number_useful_neurons(genome);
+    Network network;
+    network.hidden_count = static_cast<int>(std::count_if(numbers.begin(), numbers.end(), [](int n) { return n >= 0; }));
+
+    struct Entry { int target, source; float weight; };
+    std::vector<Entry> entries;
+    for (Edge const& edge : genome.edges) {
+        int const target = edge.target < first_hidden ? -1 : numbers[edge.target - first_hidden];
+        if (edge.target >= first_hidden && target < 0) continue;
+        int const source = edge.source < sensor_count ? -1 : numbers[edge.source - first_hidden];
+        assert(edge.source < sensor_count || source >= 0);   // what feeds a useful neuron is useful
+        entries.push_back({edge.target < first_hidden ? edge.target - first_output : effector_count + target,
+                           edge.source < sensor_count ? edge.source : sensor_count + source, decode_gene(edge.weight)});
+    }
+    std::sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) {
+        return a.target != b.target ? a.target < b.target : a.source < b.source;
+    });
+
+    network.first.assign(static_cast<std::size_t>(network.target_count()) + 1, 0);
+    for (Entry const& entry : entries) {
+        network.source.push_back(static_cast<std::uint8_t>(entry.source));
+        network.weight.push_back(entry.weight);
+        ++network.first[static_cast<std::size_t>(entry.target) + 1];
+    }
+    for (std::size_t target = 1; target < network.first.size(); ++target) network.first[target] += network.first[target - 1];
+
+    for (int output = 0; output < effector_count; ++output)
+        network.bias.push_back(5.0f * decode_gene(genome.biases[static_cast<std::size_t>(output)]));
+    for (std::size_t h = 0; h < numbers.size(); ++h)
+        if (numbers[h] >= 0) network.bias.push_back(5.0f * decode_gene(genome.biases[effector_count + h]));
+    return network;
+}
+
+void tick(Network const& network, std::span<float const, sensor_count> inputs, NetworkState& state,
+          std::span<float, effector_count> outputs) {
+    std::array<float, sensor_count + most_hidden> before;
+    std::copy(inputs.begin(), inputs.end(), before.begin());
+    std::copy_n(state.hidden.begin(), network.hidden_count, before.begin() + sensor_count);
+    for (int target = 0; target < network.target_count(); ++target) {
+        auto const t = static_cast<std::size_t>(target);
+        float sum = 0.0f;
+        for (std::size_t i = network.first[t]; i < network.first[t + 1]; ++i)
+            sum += network.weight[i] * before[network.source[i]];
+        float const activation = 1.0f / (1.0f + math::exp(network.bias[t] - sum));
+        (target < effector_count ? outputs[t] : state.hidden[t - effector_count]) = activation;
+    }
+}
+
+} // namespace lore
