@@ -10,8 +10,10 @@
 
 namespace lore {
 
-inline constexpr int tiles_per_side = 12;          ///< the arena's longer side is cut in 12 tiles; square tiles
-inline constexpr int steps_per_tile_sample = 50;
+inline constexpr int tiles_per_side = 12;          ///< the arena's longer side is cut in 12; tiles are square
+inline constexpr int steps_per_tile_sample = 50;   ///< the trajectory descriptor looks at every 50th step [steps]
+inline constexpr int entropy_bins = 10;            ///< histogram bins of a continuous channel
+inline constexpr int bits_per_step = channel_count;   ///< one bit a channel in the hamming descriptor
 
 struct Tile { std::uint8_t x = 0, y = 0; friend bool operator==(Tile const&, Tile const&) = default; };
 
@@ -28,16 +30,19 @@ struct Descriptors {
 /// The plain definition, from a recorded evaluation.
 Descriptors describe(Arena const&, Trace const&);
 
-/// Tile of a position: (floor(12 x / width), floor(12 y / width)).
+/// Tile of a position inside the arena: (floor(12 x / side), floor(12 y / side)), side the arena's longer side.
 Tile tile_of(Arena const&, float x, float y);
 
-/// Counts per channel over an evaluation; ten bins (floor(9.99 v)) for continuous channels, two for binary ones.
+/// Bin of a continuous channel's value in [0, 1]: floor(9.99 v), so that 1 falls in the last bin.
+constexpr int entropy_bin(float value) { return static_cast<int>(9.99f * value); }
+
+/// Counts per channel over an evaluation: entropy_bins for continuous channels, two for binary ones.
 /// Exact integers, so that they may be counted in any order.
 struct ChannelHistograms {
-    std::array<std::array<std::uint32_t, 10>, continuous_count> continuous{};
+    std::array<std::array<std::uint32_t, entropy_bins>, continuous_count> continuous{};
     std::array<std::uint32_t, binary_count> ones{};
 };
-/// Entropies in base (number of bins), from counts that sum to `steps`.
+/// Entropies in base (number of bins), channel order, from counts that sum to `steps`; 0 for an evaluation of no steps.
 std::array<double, channel_count> entropies(ChannelHistograms const&, int steps);
 
 } // namespace lore

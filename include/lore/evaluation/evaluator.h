@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/behavior/distances.h>
+#include <lore/behavior/distance_matrix.h>
 #include <lore/knowledge/shaping.h>
 #include <lore/network/genome.h>
 

@@ -9,12 +9,13 @@
 
 namespace lore {
 
+/// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used.
 struct EvolutionConfig {
     int population  = 200;    ///< survivors of a generation, and children of one. Paper: 200.
-    int founders    = 400;    ///< random individuals of generation 0
+    int founders    = 400;    ///< random individuals of generation 0, at least `population`
     int generations = 4000;   ///< Paper: 4000.
     TieRule ties = TieRule::random;
-    bool use_diversity = true;   ///< objective BD
+    bool use_diversity = true;   ///< objective BD; measured and reported in any case
     bool use_shaping = false;    ///< objective RS; set where a knowledge base is given
     DiversityConfig diversity;
     MutationConfig mutation;
@@ -24,7 +25,7 @@ struct EvolutionConfig {
 /// Where evolution stands: all that a checkpoint must keep.
 struct EvolutionState {
     Population population;
-    Signature signature;
+    Signature signature;   ///< over every generation's survivors, in order: id, balls, objectives
 };
 
 /// Seconds a generation spent where, for the progress file and the summary at the end.

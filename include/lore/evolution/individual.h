@@ -39,6 +39,7 @@ struct Objectives {
 struct Individual {
     std::shared_ptr<Birth const> birth;
     std::shared_ptr<Descriptors const> descriptors;
+    double diversity = 0;    ///< BD as of the last joint ranking
     Objectives objectives;   ///< as of the last joint ranking
     double crowding = 0;     ///< as of the last joint ranking
     IndividualId id() const { return birth->id; }
@@ -47,7 +48,9 @@ struct Individual {
 struct Population {
     int generation = 0;
     std::vector<Individual> members;
-    DistanceMatrix distances;        ///< of the members, by the distance that served last
+    /// Of the members, by the distance that served last. May be empty (a checkpoint need not keep it): then it is
+    /// measured anew, with the same result.
+    DistanceMatrix distances;
     DistanceKind distance_kind = DistanceKind::adhoc;
 };
 

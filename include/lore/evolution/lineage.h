@@ -2,6 +2,9 @@
 
 #include <lore/evolution/individual.h>
 
+#include <span>
+#include <vector>
+
 namespace lore {
 
 /// From the individual to its founder, the individual first (the order of Algorithm 1).

@@ -11,11 +11,16 @@ enum class TieRule : std::uint8_t { random, older, younger };
 std::string_view name(TieRule);
 TieRule tie_rule(std::string_view name);   ///< throws UsageError
 
-/// Smaller comes first. random: from the stream (seed, tie, generation, id); older, younger: by birth.
+/// Smaller comes first. random: from the stream (seed, tie, present generation, id), so that an individual's luck
+/// changes from generation to generation; older, younger: by birth.
 std::uint64_t tie_key(TieRule, std::uint64_t seed, int generation, IndividualId);
 
-/// Parents of `count` children by binary tournaments; every member takes part in exactly two when count equals the
-/// population. The winner dominates, else has the larger crowding distance, else a coin.
+/// Parents of `count` children by binary tournaments, as indices into `members`.
+///
+/// Shuffles of the population are laid end to end and cut into pairs, so that every member takes part in exactly two
+/// tournaments when count equals the population. In an odd population one pair straddles two shuffles; should it be the
+/// same member twice, it meets the next one instead. The winner dominates, else has the larger crowding distance, else a
+/// coin; objectives and crowding are those of the last joint ranking.
 std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed, int generation);
 
 /// What a joint ranking found.

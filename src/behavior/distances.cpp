@@ -1,0 +1,94 @@
+#include <lore/behavior/distances.h>
+
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+namespace {
+
+constexpr std::array<std::string_view, distance_kinds> kind_names{"adhoc", "hamming", "trajectory", "entropy"};
+
+constexpr int insertion_cost = tiles_per_side;   // in twelfths of the paper's unit
+constexpr int deletion_cost  = tiles_per_side;
+int substitution_cost(Tile a, Tile b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
+
+} // namespace
+
+std::string_view name(DistanceKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
+DistanceKind distance_kind(std::string_view wanted) {
+    auto const found = std::find(kind_names.begin(), kind_names.end(), wanted);
+    if (found == kind_names.end())
+        throw UsageError("'" + std::string{wanted} + "' is not a behavioural distance",
+                         "known are adhoc, hamming, trajectory, entropy", "Correct the name.");
+    return static_cast<DistanceKind>(found - kind_names.begin());
+}
+
+double adhoc_distance(Descriptors const& a, Descriptors const& b) {
+    assert(a.balls.size() == b.balls.size());
+    double sum = 0;
+    for (std::size_t ball = 0; ball < a.balls.size(); ++ball) {
+        double const dx = static_cast<double>(a.balls[ball].x) - b.balls[ball].x;
+        double const dy = static_cast<double>(a.balls[ball].y) - b.balls[ball].y;
+        sum += dx * dx + dy * dy;
+    }
+    return std::sqrt(sum);
+}
+
+double hamming_distance(Descriptors const& a, Descriptors const& b) {
+    auto const [shorter, longer] = std::minmax(a.bits.size(), b.bits.size());
+    if (longer == 0) return 0;
+    std::size_t differing = (longer - shorter) * bits_per_step;
+    for (std::size_t step = 0; step < shorter; ++step)
+        differing += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(a.bits[step] ^ b.bits[step])));
+    return static_cast<double>(differing) / static_cast<double>(longer * bits_per_step);
+}
+
+double trajectory_distance(Descriptors const& a, Descriptors const& b) {
+    // cost[i][j]: of turning the first i tiles of a into the first j of b.
+    std::size_t const rows = a.path.size() + 1, columns = b.path.size() + 1;
+    std::vector<int> cells(rows * columns);
+    auto const cost = [&](std::size_t i, std::size_t j) -> int& { return cells[i * columns + j]; };
+    for (std::size_t i = 1; i < rows; ++i) cost(i, 0) = cost(i - 1, 0) + deletion_cost;
+    for (std::size_t j = 1; j < columns; ++j) cost(0, j) = cost(0, j - 1) + insertion_cost;
+    for (std::size_t i = 1; i < rows; ++i) {
+        for (std::size_t j = 1; j < columns; ++j) {
+            Tile const here_a = a.path[i - 1], here_b = b.path[j - 1];
+            int const substitution = substitution_cost(here_a, here_b);
+            int least = std::min({cost(i - 1, j) + deletion_cost, cost(i, j - 1) + insertion_cost, cost(i - 1, j - 1) + substitution});
+            if (i > 1 && j > 1 && here_a == b.path[j - 2] && a.path[i - 2] == here_b)
+                least = std::min(least, cost(i - 2, j - 2) + substitution);
+            cost(i, j) = least;
+        }
+    }
+    return cost(rows - 1, columns - 1) / static_cast<double>(tiles_per_side);
+}
+
+double entropy_distance(Descriptors const& a, Descriptors const& b) {
+    double sum = 0;
+    for (int c = 0; c < channel_count; ++c) {
+        double const difference = a.entropies[c] - b.entropies[c];
+        sum += difference * difference;
+    }
+    return std::sqrt(sum);
+}
+
+double distance(DistanceKind kind, Descriptors const& a, Descriptors const& b) {
+    switch (kind) {
+    case DistanceKind::adhoc: return adhoc_distance(a, b);
+    case DistanceKind::hamming: return hamming_distance(a, b);
+    case DistanceKind::trajectory: return trajectory_distance(a, b);
+    case DistanceKind::entropy: return entropy_distance(a, b);
+    }
+    assert(false);
+    return 0;
+}
+
+} // namespace lore

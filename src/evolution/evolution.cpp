@@ -1,0 +1,177 @@
+#include <lore/evolution/evolution.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace lore {
+
+namespace {
+
+/// The newly born, still to be filled in; once judged, they are only seen as Birth const.
+using Newborns = std::vector<std::shared_ptr<Birth>>;
+
+std::uint32_t word(int number) { return static_cast<std::uint32_t>(number); }
+
+Newborns founders(EvolutionConfig const& config, std::uint64_t seed) {
+    Newborns born;
+    for (int slot = 0; slot < config.founders; ++slot) {
+        auto birth = std::make_shared<Birth>();
+        birth->id = {0, word(slot)};
+        birth->genome = founder(Stream{seed, Purpose::founder, 0, word(slot)});
+        born.push_back(std::move(birth));
+    }
+    return born;
+}
+
+/// One mutated copy of each tournament's winner; no crossover.
+Newborns breed(Population const& parents, EvolutionConfig const& config, std::uint64_t seed, int generation) {
+    Newborns born;
+    for (int const winner : tournament_winners(parents.members, config.population, seed, generation)) {
+        auto birth = std::make_shared<Birth>();
+        birth->id = {word(generation), word(static_cast<int>(born.size()))};
+        birth->parent = parents.members[winner].birth;
+        birth->genome = birth->parent->genome;
+        Stream rng{seed, Purpose::mutation, birth->id.generation, birth->id.slot};
+        mutate(birth->genome, config.mutation, config.limits, rng);
+        born.push_back(std::move(birth));
+    }
+    return born;
+}
+
+std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator) {
+    std::vector<Genome const*> genomes;
+    for (auto const& birth : born) genomes.push_back(&birth->genome);
+    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes);
+    assert(evaluations.size() == born.size());
+    std::vector<Individual> individuals;
+    for (std::size_t k = 0; k < born.size(); ++k) {
+        born[k]->balls = evaluations[k].balls;
+        born[k]->shaping = evaluations[k].shaping;
+        Individual individual;
+        individual.birth = born[k];
+        individual.descriptors = std::make_shared<Descriptors const>(std::move(evaluations[k].descriptors));
+        individuals.push_back(std::move(individual));
+    }
+    return individuals;
+}
+
+Population join(Population parents, std::vector<Individual> children) {
+    parents.members.insert(parents.members.end(), std::make_move_iterator(children.begin()), std::make_move_iterator(children.end()));
+    return parents;
+}
+
+/// Diversity of everybody within the pool. Distances among parents are known from the last generation, unless the
+/// distance itself has changed since.
+void measure_diversity(Population& pool, DistanceKind kind, Evaluator& evaluator) {
+    int const known = pool.distance_kind == kind ? pool.distances.size() : 0;
+    int const size = static_cast<int>(pool.members.size());
+    std::vector<Descriptors const*> descriptors;
+    for (Individual const& member : pool.members) descriptors.push_back(member.descriptors.get());
+    pool.distances = known > 0 ? pool.distances.extended(size - known) : DistanceMatrix(size);
+    pool.distance_kind = kind;
+    evaluator.measure(kind, descriptors, known, pool.distances);
+    std::vector<double> const diversity = pool.distances.means();
+    for (int i = 0; i < size; ++i) pool.members[i].diversity = diversity[i];
+}
+
+Objectives objectives_of(Individual const& individual, EvolutionConfig const& config) {
+    Objectives objectives;
+    auto const add = [&](double value) {
+        assert(std::isfinite(value));
+        objectives.value[objectives.count++] = value;
+    };
+    add(individual.birth->balls);
+    if (config.use_diversity) add(individual.diversity);
+    if (config.use_shaping) add(individual.birth->shaping);
+    return objectives;
+}
+
+/// The joint ranking of parents and children; leaves crowding distances in the pool.
+Ranking rank(Population& pool, EvolutionConfig const& config, std::uint64_t seed) {
+    std::vector<Objectives> objectives;
+    std::vector<std::uint64_t> tie_keys;
+    for (Individual& member : pool.members) {
+        member.objectives = objectives_of(member, config);
+        objectives.push_back(member.objectives);
+        tie_keys.push_back(tie_key(config.ties, seed, pool.generation, member.id()));
+    }
+    int const room = std::min(config.population, static_cast<int>(pool.members.size()));
+    Ranking ranking = rank(objectives, tie_keys, room);
+    for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].crowding = ranking.crowding[i];
+    return ranking;
+}
+
+Population survivors(Population const& pool, std::vector<int> const& chosen) {
+    Population next;
+    next.generation = pool.generation;
+    next.distance_kind = pool.distance_kind;
+    next.distances = pool.distances.select(chosen);
+    for (int const i : chosen) next.members.push_back(pool.members[i]);
+    return next;
+}
+
+void sign(Signature& signature, Population const& population) {
+    for (Individual const& member : population.members) {
+        signature.add((static_cast<std::uint64_t>(member.id().generation) << 32) | member.id().slot);
+        signature.add(static_cast<std::uint64_t>(member.birth->balls));
+        for (int k = 0; k < member.objectives.count; ++k) signature.add(member.objectives.value[k]);
+    }
+}
+
+/// Seconds between one call and the next.
+class Stopwatch {
+public:
+    double lap() {
+        auto const now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator, EvolutionState state,
+                      GenerationObserver const& observer) {
+    int const first = state.population.members.empty() ? 0 : state.population.generation + 1;
+    for (int generation = first; generation <= config.generations; ++generation) {
+        Stopwatch watch;
+        GenerationTimes times;
+
+        Newborns const born = generation == 0 ? founders(config, seed) : breed(state.population, config, seed, generation);
+        times.selection += watch.lap();
+
+        std::vector<Individual> children = evaluate(born, evaluator);
+        times.evaluation += watch.lap();
+
+        Population pool = join(std::move(state.population), std::move(children));
+        pool.generation = generation;
+        DistanceKind const kind = distance_at(seed, generation, config.diversity);
+        measure_diversity(pool, kind, evaluator);
+        auto const judged = std::span<Individual const>{pool.members}.last(born.size());
+        for (std::size_t k = 0; k < born.size(); ++k) born[k]->diversity = judged[k].diversity;
+        times.distances += watch.lap();
+
+        Ranking const ranking = rank(pool, config, seed);
+        state.population = survivors(pool, ranking.survivors);
+        sign(state.signature, state.population);
+        times.selection += watch.lap();
+
+        if (observer && !observer({generation, kind, ranking.fronts, judged, &state, times})) break;
+    }
+    return state;
+}
+
+Individual const& best_of_run(Population const& population) {
+    assert(!population.members.empty());
+    return *std::min_element(population.members.begin(), population.members.end(), [](Individual const& a, Individual const& b) {
+        if (a.birth->balls != b.birth->balls) return a.birth->balls > b.birth->balls;
+        return a.id() < b.id();
+    });
+}
+
+} // namespace lore

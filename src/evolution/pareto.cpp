@@ -1,0 +1,86 @@
+#include <lore/evolution/pareto.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+
+namespace lore {
+
+bool dominates(Objectives const& a, Objectives const& b) {
+    assert(a.count == b.count);
+    bool better = false;
+    for (int k = 0; k < a.count; ++k) {
+        if (a.value[k] < b.value[k]) return false;
+        better |= a.value[k] > b.value[k];
+    }
+    return better;
+}
+
+std::vector<std::vector<int>> non_dominated_fronts_plainly(std::span<Objectives const> points) {
+    std::vector<int> left(points.size());
+    std::iota(left.begin(), left.end(), 0);
+    std::vector<std::vector<int>> fronts;
+    while (!left.empty()) {
+        std::vector<int> front, dominated;
+        for (int const i : left) {
+            bool const is_dominated = std::any_of(left.begin(), left.end(), [&](int j) { return dominates(points[j], points[i]); });
+            (is_dominated ? dominated : front).push_back(i);
+        }
+        fronts.push_back(std::move(front));
+        left = std::move(dominated);
+    }
+    return fronts;
+}
+
+std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> points) {
+    // Efficient non-dominated sort with binary search (ENS-BS, Zhang et al. 2015): in lexicographic order, best first,
+    // nobody is dominated by a later one, and who is dominated by some member of front f is dominated by some member of
+    // every earlier front. So each finds its front by bisection against those already placed.
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        if (points[a].value != points[b].value) return points[a].value > points[b].value;
+        return a < b;
+    });
+    std::vector<std::vector<int>> fronts;
+    std::size_t front = 0;
+    for (std::size_t place = 0; place < order.size(); ++place) {
+        int const i = order[place];
+        // Ties are massive: equals follow each other and share a front.
+        if (place == 0 || !(points[order[place - 1]] == points[i])) {
+            auto const dominated_in = [&](std::vector<int> const& members) {
+                return std::any_of(members.rbegin(), members.rend(), [&](int j) { return dominates(points[j], points[i]); });
+            };
+            front = static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(), dominated_in) - fronts.begin());
+            if (front == fronts.size()) fronts.emplace_back();
+        }
+        fronts[front].push_back(i);
+    }
+    for (std::vector<int>& members : fronts) std::sort(members.begin(), members.end());
+    return fronts;
+}
+
+std::vector<double> crowding_distances(std::span<Objectives const> points, std::span<int const> front,
+                                       std::span<std::uint64_t const> tie_key) {
+    std::vector<double> crowding(front.size(), 0.0);
+    if (front.empty()) return crowding;
+    std::vector<std::size_t> order(front.size());
+    for (int k = 0; k < points[front[0]].count; ++k) {
+        auto const value = [&](std::size_t place) { return points[front[place]].value[k]; };
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            if (value(a) != value(b)) return value(a) < value(b);
+            if (tie_key[front[a]] != tie_key[front[b]]) return tie_key[front[a]] < tie_key[front[b]];
+            return a < b;
+        });
+        double const range = value(order.back()) - value(order.front());
+        if (range == 0) continue;
+        crowding[order.front()] = crowding[order.back()] = std::numeric_limits<double>::infinity();
+        for (std::size_t place = 1; place + 1 < order.size(); ++place)
+            crowding[order[place]] += (value(order[place + 1]) - value(order[place - 1])) / range;
+    }
+    return crowding;
+}
+
+} // namespace lore

@@ -1,0 +1,42 @@
+#include <lore/evolution/summary.h>
+
+#include <algorithm>
+#include <map>
+
+namespace lore {
+
+GenerationSummary summarise(GenerationReport const& report) {
+    std::vector<Individual> const& members = report.state->population.members;
+    GenerationSummary summary;
+    summary.generation = report.generation;
+    summary.distance = report.distance;
+    summary.fronts = report.fronts;
+
+    std::map<std::array<double, 3>, int> sharing;
+    int at_max = 0;
+    for (Individual const& member : members) {
+        Birth const& birth = *member.birth;
+        summary.best_balls = std::max(summary.best_balls, birth.balls);
+        summary.mean_balls += birth.balls;
+        summary.mean_diversity += member.diversity;
+        summary.mean_connections += static_cast<double>(birth.genome.edges.size());
+        summary.mean_hidden += birth.genome.hidden_count();
+        if (birth.shaping > summary.best_shaping) {
+            summary.best_shaping = birth.shaping;
+            at_max = 0;
+        }
+        if (birth.shaping == summary.best_shaping && birth.shaping != no_feature_value) ++at_max;
+        ++sharing[member.objectives.value];
+    }
+    double const count = static_cast<double>(members.size());
+    for (double* mean : {&summary.mean_balls, &summary.mean_diversity, &summary.mean_connections, &summary.mean_hidden}) *mean /= count;
+    summary.shaping_at_max = at_max / count;
+    for (auto const& [objectives, sharers] : sharing)
+        if (sharers > 1) summary.tied += sharers;
+
+    summary.evaluations = static_cast<std::int64_t>(report.born.size());
+    for (Individual const& child : report.born) summary.steps += static_cast<std::int64_t>(child.descriptors->bits.size());
+    return summary;
+}
+
+} // namespace lore
