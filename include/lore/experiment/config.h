@@ -22,8 +22,15 @@ struct ExperimentConfig {
 };
 
 /// Reads jobs/*.toml; `overrides` are "section.key=value". Unknown keys are errors that name the nearest valid one.
-ExperimentConfig read_config(std::string const& path, std::vector<std::string> const& overrides);
+/// A string's quotes and a list's brackets may be left out in an override, as a shell would eat them anyway.
+ExperimentConfig read_config(std::string const& path, std::vector<std::string> const& overrides = {});
+/// The same from text; `name` is what errors call it, and relative paths start at `directory`.
+ExperimentConfig parse_config(std::string_view text, std::string const& name, std::string const& directory,
+                              std::vector<std::string> const& overrides = {});
 /// The complete effective configuration, commented with meaning and unit; read_config reads it back to the same.
 std::string to_toml(ExperimentConfig const&);
+
+/// Settings ("section.key") whose values differ.
+std::vector<std::string> differing_settings(ExperimentConfig const&, ExperimentConfig const&);
 
 } // namespace lore

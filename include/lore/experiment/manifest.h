@@ -1,0 +1,58 @@
+#pragma once
+
+#include <lore/experiment/version.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+enum class RunStatus : std::uint8_t { running, interrupted, done };
+std::string_view name(RunStatus);
+
+/// A file that went into a run or came out of it, and what it was like.
+struct FileRecord {
+    std::string path;       ///< inputs as given, outputs relative to the run's directory
+    std::uint64_t bytes = 0;
+    std::string checksum;   ///< XXH3-64, 16 hexadecimal digits
+};
+
+/// One start of the program on this run.
+struct Session {
+    std::string command_line;
+    std::string started, stopped;   ///< UTC, ISO 8601; stopped is empty while it runs, or if it was killed
+    int first_generation = 0;       ///< the generation it started from
+    int last_generation = 0;        ///< as of the last checkpoint or the end
+    int ranks = 1;
+    std::vector<std::string> hosts;
+    std::string isa;
+    double seconds = 0;             ///< of wall time
+    std::string reason;             ///< of the stop: "done", "signal 15", "time limit", ...
+};
+
+/// Provenance of a run: manifest.json (docs/formats.md).
+struct Manifest {
+    RunStatus status = RunStatus::running;
+    std::string name;
+    std::string task;
+    std::uint64_t seed = 1;
+    std::string signature;          ///< as of the last checkpoint or the end
+    int generation = 0;             ///< likewise
+    int generations = 0;            ///< that the run is to reach
+    int best_balls = 0;             ///< of the best-of-run, likewise
+    std::string best;               ///< its id
+    BuildInformation build;
+    std::vector<FileRecord> inputs, outputs;
+    std::vector<Session> sessions;
+};
+
+void write_manifest(std::string const& path, Manifest const&);
+/// Throws Error: missing, not JSON, or a field missing or of another type.
+Manifest read_manifest(std::string const& path);
+
+FileRecord record_of(std::string const& path, std::string const& shown_as);
+/// Now, UTC, as "2025-01-31T12:00:00Z".
+std::string time_stamp();
+
+} // namespace lore

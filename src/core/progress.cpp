@@ -1,0 +1,64 @@
+#include <lore/core/progress.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace lore {
+
+namespace {
+
+constexpr int bar_width = 30;
+constexpr std::chrono::milliseconds redraw_every{100};
+
+} // namespace
+
+std::string duration_text(double seconds) {
+    auto const whole = static_cast<std::int64_t>(std::llround(std::clamp(seconds, 0.0, 1e9)));
+    if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+    return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+Progress::Progress(std::string title, std::int64_t total, std::string unit, std::int64_t line_every, bool quiet)
+    : title_(std::move(title)), unit_(std::move(unit)), total_(total), line_every_(std::max<std::int64_t>(1, line_every)),
+      quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (bar_open_) std::fputc('\n', stderr);
+}
+
+void Progress::start_at(std::int64_t done) {
+    first_ = done;
+    began_ = Clock::now();
+}
+
+void Progress::update(std::int64_t done, std::string_view note) {
+    if (quiet_) return;
+    bool const last = done >= total_;
+    auto const now = Clock::now();
+    if (terminal_ ? !last && now - drawn_ < redraw_every : !last && done % line_every_ != 0) return;
+    drawn_ = now;
+    double const elapsed = std::chrono::duration<double>(now - began_).count();
+    std::string time = duration_text(elapsed) + " elapsed";
+    if (!last && done > first_)
+        time = duration_text(elapsed * static_cast<double>(total_ - done) / static_cast<double>(done - first_)) + " left";
+    std::string_view const gap = note.empty() ? "" : ", ";
+    std::string line;
+    if (terminal_) {
+        auto const filled = static_cast<int>(total_ <= 0 ? bar_width : bar_width * std::min(done, total_) / total_);
+        line = fmt::format("\r{} [{:=<{}}{:{}}] {}/{} {}, {}{}{}\x1b[K", title_, "", filled, "", bar_width - filled, done, total_, unit_, time,
+                           gap, note);
+        bar_open_ = !last;
+        if (last) line += '\n';
+    } else {
+        line = fmt::format("{}: {}/{} {}, {}{}{}\n", title_, done, total_, unit_, time, gap, note);
+    }
+    std::fputs(line.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace lore

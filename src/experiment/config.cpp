@@ -1,0 +1,151 @@
+#include <lore/experiment/config.h>
+
+#include "settings.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace lore {
+
+namespace {
+
+/// Takes every setting from the document; whatever it has besides is an error that names the nearest valid key.
+void read_settings(TomlTable const& document, std::vector<Setting> const& settings) {
+    std::map<std::string, TomlTable, std::less<>> sections;
+    for (Setting const& setting : settings) {
+        if (setting.section.empty()) { setting.read(document); continue; }
+        auto section = sections.find(setting.section);
+        if (section == sections.end()) {
+            auto table = document.table(setting.section);
+            if (!table) continue;
+            section = sections.emplace(setting.section, *std::move(table)).first;
+        }
+        setting.read(section->second);
+    }
+    auto const reject = [&](TomlTable const& table, std::string_view section) {
+        for (std::string const& key : table.keys()) {
+            auto const belongs = [&](Setting const& s) { return s.section == section ? s.key == key : section.empty() && s.section == key; };
+            if (std::any_of(settings.begin(), settings.end(), belongs)) continue;
+            // A right key in the wrong section is a likelier mistake than a similar one in this section.
+            auto const elsewhere = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
+            if (elsewhere != settings.end()) table.fail(key, "unknown key", fmt::format("Did you mean '{}'?", elsewhere->full_key()));
+        }
+        table.reject_unknown();
+    };
+    reject(document, "");
+    for (auto const& [section, table] : sections) reject(table, section);
+}
+
+/// "[section]\nkey = value" from "section.key=value".
+TomlTable document_of(std::string const& override, std::vector<Setting> const& settings) {
+    std::string const label = "--set " + override;
+    std::size_t const equals = override.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError(label, "there is no key=value in it", "Write it like --set evolution.generations=500.");
+    std::string const key = override.substr(0, equals);
+    std::string value = override.substr(equals + 1);
+    auto const setting = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.full_key() == key; });
+    if (setting == settings.end()) {
+        std::vector<std::string> known;
+        for (Setting const& s : settings) known.push_back(s.full_key());
+        auto const elsewhere = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
+        std::vector<std::string_view> const views(known.begin(), known.end());
+        std::string const meant = elsewhere != settings.end() ? elsewhere->full_key() : nearest_word(key, views.data(), views.size());
+        throw UsageError(label, "unknown key", meant.empty() ? "See 'lore-evolve --help'." : fmt::format("Did you mean '{}'?", meant));
+    }
+    if (value.find_first_of("\r\n") != std::string::npos) throw UsageError(label, "the value has several lines", "Give one value.");
+    if (setting->kind == Setting::Kind::text && !value.starts_with('"') && !value.starts_with('\'')) value = "'" + value + "'";
+    if (setting->kind == Setting::Kind::list && !value.starts_with('[')) {
+        std::string list = "['" + value + "']";
+        for (std::size_t comma = 0; (comma = list.find(',', comma)) != std::string::npos; comma += 3) list.replace(comma, 1, "','");
+        value = std::move(list);
+    }
+    std::string const section = setting->section.empty() ? "" : fmt::format("[{}]\n", setting->section);
+    return TomlTable::parse(fmt::format("{}{} = {}\n", section, setting->key, value), label);
+}
+
+/// What no single setting can judge. `name` is the file's, or what else the configuration came from.
+void check(ExperimentConfig const& config, std::string const& name) {
+    auto const refuse = [&](std::string_view key, std::string const& reason, std::string_view remedy) {
+        throw UsageError(fmt::format("{}: {}", name, key), reason, remedy);
+    };
+    EvolutionConfig const& evolution = config.evolution;
+    if (evolution.population % 2 != 0)
+        refuse("evolution.population", fmt::format("{} is odd, and tournaments pair the population", evolution.population), "Take an even number.");
+    if (evolution.founders < evolution.population)
+        refuse("evolution.founders", fmt::format("{} is less than the population of {}", evolution.founders, evolution.population),
+               "Take at least as many.");
+    int const root = evolution.mutation.eta + 1;
+    if ((root & (root - 1)) != 0)
+        refuse("mutation.eta", fmt::format("{} + 1 is not a power of two", evolution.mutation.eta), "Take 15, as the paper does, or 7 or 31.");
+    if (config.knowledge.window_length > config.episode.steps)
+        refuse("knowledge.window_length", fmt::format("{} is more than the {} steps of an evaluation", config.knowledge.window_length, config.episode.steps),
+               "Take at most episode.steps.");
+    if (!(config.knowledge.match_threshold > 0)) refuse("knowledge.match_threshold", "0 matches nothing", "Take a positive number.");
+}
+
+/// A path of an arena file starts where the configuration lies; a built-in arena's name is left alone.
+std::string located(std::string const& arena, std::string const& directory) {
+    bool const is_path = arena.find('/') != std::string::npos || arena.ends_with(".toml");
+    if (!is_path || std::filesystem::path{arena}.is_absolute()) return arena;
+    return (std::filesystem::path{directory} / arena).lexically_normal().string();
+}
+
+} // namespace
+
+ExperimentConfig parse_config(std::string_view text, std::string const& name, std::string const& directory,
+                              std::vector<std::string> const& overrides) {
+    ExperimentConfig config;
+    auto const settings = settings_of(config);
+    read_settings(TomlTable::parse(text, name), settings);
+    config.arena = located(config.arena, directory);
+    std::string origin = name;
+    for (std::string const& override : overrides) {
+        read_settings(document_of(override, settings), settings);
+        origin = fmt::format("{} with --set {}", name, override);
+    }
+    check(config, origin);
+    return config;
+}
+
+ExperimentConfig read_config(std::string const& path, std::vector<std::string> const& overrides) {
+    std::vector<std::byte> bytes;
+    try {
+        bytes = read_file(path);
+    } catch (Error const& error) {
+        throw UsageError("no configuration", error.what(), "");
+    }
+    return parse_config({reinterpret_cast<char const*>(bytes.data()), bytes.size()}, path,
+                        std::filesystem::path{path}.parent_path().string(), overrides);
+}
+
+std::string to_toml(ExperimentConfig const& config) {
+    ExperimentConfig copy = config;   // settings are bound for reading as well
+    std::string text = "# The complete configuration of a run of Lore.\n";
+    std::string section;
+    for (Setting const& setting : settings_of(copy)) {
+        if (setting.section != section) {
+            section = setting.section;
+            text += fmt::format("\n[{}]\n", section);
+        }
+        text += fmt::format("{:<40} # {}\n", fmt::format("{} = {}", setting.key, setting.text()), setting.doc);
+    }
+    return text;
+}
+
+std::vector<std::string> differing_settings(ExperimentConfig const& a, ExperimentConfig const& b) {
+    ExperimentConfig left = a, right = b;
+    auto const of_a = settings_of(left), of_b = settings_of(right);
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < of_a.size(); ++i)
+        if (of_a[i].text() != of_b[i].text()) keys.push_back(of_a[i].full_key());
+    return keys;
+}
+
+} // namespace lore

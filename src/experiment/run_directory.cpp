@@ -1,0 +1,54 @@
+#include <lore/experiment/run_directory.h>
+
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+
+namespace lore {
+
+std::string text(IndividualId id) { return fmt::format("{}.{}", id.generation, id.slot); }
+
+IndividualId individual_id(std::string_view text) {
+    IndividualId id;
+    char const* const end = text.data() + text.size();
+    auto const generation = std::from_chars(text.data(), end, id.generation);
+    if (generation.ec == std::errc{} && generation.ptr != end && *generation.ptr == '.') {
+        auto const slot = std::from_chars(generation.ptr + 1, end, id.slot);
+        if (slot.ec == std::errc{} && slot.ptr == end) return id;
+    }
+    throw UsageError(fmt::format("'{}' is no individual", text), "an id is GENERATION.SLOT, such as 312.17",
+                     "Take one, or 'best'.");
+}
+
+std::string RunDirectory::file(std::string_view name) const { return (std::filesystem::path{path} / name).string(); }
+
+std::shared_ptr<Birth const> RunDirectory::individual(std::string const& which) const {
+    if (which == "best") return lineage.find(lineage.best);
+    IndividualId const id = individual_id(which);
+    try {
+        return lineage.find(id);
+    } catch (Error const&) {
+        throw UsageError(fmt::format("individual {} is not in {}", which, file(run_file::lineage)),
+                         "only the ancestors of the last population are kept there", "Take one of them, or 'best'.");
+    }
+}
+
+RunDirectory open_run(std::string const& path) {
+    RunDirectory run;
+    run.path = path;
+    if (!std::filesystem::is_directory(path)) throw Error(fmt::format("no run in {}", path), "no such directory", "Check the path.");
+    if (!std::filesystem::exists(run.file(run_file::config)))
+        throw Error(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config), "Check the path.");
+    run.config = read_config(run.file(run_file::config));
+    run.arena = load_arena(run.config.arena, run.config.task);
+    if (!std::filesystem::exists(run.file(run_file::lineage)))
+        throw Error(fmt::format("no lineage in {}", path), "the run has not reached its first checkpoint",
+                    "Let it go on with 'lore-evolve --resume'.");
+    run.lineage = read_lineage(run.file(run_file::lineage));
+    return run;
+}
+
+} // namespace lore

@@ -1,0 +1,154 @@
+#include "settings.h"
+
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+namespace lore {
+
+namespace {
+
+/// Collects descriptions; one overload of `add` a type of value.
+class Description {
+public:
+    std::vector<Setting> settings;
+
+    void section(std::string name) { section_ = std::move(name); }
+
+    void add(std::string key, int& value, int least, int most, std::string_view doc) {
+        push(key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+             [=, &value](TomlTable const& table) {
+                 if (auto const read = table.integer(key, least, most)) value = static_cast<int>(*read);
+             },
+             [&value] { return fmt::format("{}", value); });
+    }
+    template <class Real>
+        requires std::is_floating_point_v<Real>
+    void add(std::string key, Real& value, double least, double most, std::string_view doc) {
+        push(key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+             [=, &value](TomlTable const& table) {
+                 if (auto const read = table.number(key, least, most)) value = static_cast<Real>(*read);
+             },
+             [&value] { return fmt::format("{}", value); });
+    }
+    void add(std::string key, bool& value, std::string_view doc) {
+        push(key, std::string{doc}, Setting::Kind::value,
+             [=, &value](TomlTable const& table) { if (auto const read = table.boolean(key)) value = *read; },
+             [&value] { return value ? "true" : "false"; });
+    }
+    void add(std::string key, std::string& value, std::string_view doc) {
+        push(key, std::string{doc}, Setting::Kind::text,
+             [=, &value](TomlTable const& table) { if (auto read = table.string(key)) value = *std::move(read); },
+             [&value] { return quoted(value); });
+    }
+    /// A choice, written as its name; `parse` throws UsageError for an unknown one.
+    template <class Choice>
+    void add(std::string key, Choice& value, Choice (*parse)(std::string_view), std::string_view doc) {
+        push(key, std::string{doc}, Setting::Kind::text,
+             [=, &value](TomlTable const& table) {
+                 auto const read = table.string(key);
+                 if (!read) return;
+                 try { value = parse(*read); } catch (UsageError const& error) { table.fail(key, error.what()); }
+             },
+             [&value] { return quoted(name(value)); });
+    }
+    template <class Choice>
+    void add(std::string key, std::vector<Choice>& values, Choice (*parse)(std::string_view), std::string_view doc) {
+        push(key, std::string{doc}, Setting::Kind::list,
+             [=, &values](TomlTable const& table) {
+                 auto const read = table.strings(key);
+                 if (!read) return;
+                 if (read->empty()) table.fail(key, "the list is empty", "Name at least one.");
+                 std::vector<Choice> parsed;
+                 for (std::string const& word : *read) {
+                     try { parsed.push_back(parse(word)); } catch (UsageError const& error) { table.fail(key, error.what()); }
+                 }
+                 values = std::move(parsed);
+             },
+             [&values] {
+                 std::vector<std::string> words;
+                 for (Choice value : values) words.push_back(quoted(name(value)));
+                 return fmt::format("[{}]", fmt::join(words, ", "));
+             });
+    }
+
+private:
+    static std::string quoted(std::string_view text) {
+        std::string literal = "\"";
+        for (char const c : text) {
+            if (c == '"' || c == '\\') literal += '\\';
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) literal += fmt::format("\\u{:04x}", static_cast<int>(c));
+            else literal += c;
+        }
+        return literal + "\"";
+    }
+    template <class Number>
+    static std::string range(Number least, Number most) {
+        return most == std::numeric_limits<Number>::max() ? fmt::format("at least {}", least) : fmt::format("{} .. {}", least, most);
+    }
+    void push(std::string const& key, std::string doc, Setting::Kind kind, std::function<void(TomlTable const&)> read,
+              std::function<std::string()> text) {
+        settings.push_back({section_, key, std::move(doc), kind, std::move(read), std::move(text)});
+    }
+
+    std::string section_;
+};
+
+constexpr int any = std::numeric_limits<int>::max();
+
+} // namespace
+
+std::vector<Setting> settings_of(ExperimentConfig& config) {
+    Description d;
+    d.section("");
+    d.add("name", config.name, "of the treatment, for people and reports");
+    d.add("arena", config.arena, "a built-in arena's name, or a path relative to this file");
+    d.add("task", config.task, "one of the arena's tasks");
+
+    d.section("episode");
+    d.add("steps", config.episode.steps, 1, 32767, "length of an evaluation [steps]");
+    d.add("stop_when_still", config.episode.stop_when_still, 0, any,
+          "stop after so many steps without movement, counted together [steps]; 0 never");
+
+    EvolutionConfig& evolution = config.evolution;
+    d.section("evolution");
+    d.add("population", evolution.population, 2, 100000, "survivors of a generation, and children of one; an even number");
+    d.add("founders", evolution.founders, 2, 200000, "random individuals of generation 0; not fewer than population");
+    d.add("generations", evolution.generations, 0, any, "length of the run [generations]");
+    d.add("ties", evolution.ties, tie_rule, "order among equals in sorts and cuts: random, older or younger first");
+    d.add("use_diversity", evolution.use_diversity, "objective: behavioural diversity");
+    d.add("use_shaping", evolution.use_shaping, "objective: reward shaping; set by --kb");
+
+    d.section("diversity");
+    d.add("period", evolution.diversity.period, 1, any, "the behavioural distance is drawn anew every so many generations");
+    d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: adhoc, hamming, trajectory, entropy");
+
+    MutationConfig& mutation = evolution.mutation;
+    d.section("mutation");
+    d.add("weight_probability", mutation.weight_probability, 0.0, 1.0, "per weight: polynomial mutation");
+    d.add("bias_probability", mutation.bias_probability, 0.0, 1.0, "per bias: polynomial mutation");
+    d.add("rewire_probability", mutation.rewire_probability, 0.0, 1.0, "per connection, at most one a mutation: an end is redrawn");
+    d.add("add_edge_probability", mutation.add_edge_probability, 0.0, 1.0, "a connection is added");
+    d.add("delete_edge_probability", mutation.delete_edge_probability, 0.0, 1.0, "a connection is removed");
+    d.add("add_neuron_probability", mutation.add_neuron_probability, 0.0, 1.0, "a connection is split by a new neuron");
+    d.add("delete_neuron_probability", mutation.delete_neuron_probability, 0.0, 1.0, "a hidden neuron is removed with its connections");
+    d.add("eta", mutation.eta, 0, 1023, "distribution index of the polynomial mutation; a power of two less one");
+
+    d.section("limits");
+    d.add("max_hidden", evolution.limits.max_hidden, 0, most_hidden, "hidden neurons of a controller");
+    d.add("max_edges", evolution.limits.max_edges, sensor_count * effector_count, most_edges, "connections of a controller");
+
+    d.section("knowledge");
+    d.add("window_length", config.knowledge.window_length, 1, 32767, "what a knowledge base must have been cut with [steps]");
+    d.add("match_threshold", config.knowledge.match_threshold, 0.0, 1000.0, "a window nearer than this to a feature matches it [L2]");
+
+    d.section("checkpoint");
+    d.add("generations", config.checkpoint_generations, 1, any, "a checkpoint every so many generations");
+    d.add("minutes", config.checkpoint_minutes, 0.0, 1e6, "and every so many minutes; 0 after every generation");
+    return std::move(d.settings);
+}
+
+} // namespace lore

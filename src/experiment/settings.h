@@ -1,0 +1,29 @@
+#pragma once
+
+#include <lore/core/toml.h>
+#include <lore/experiment/config.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// One setting of an ExperimentConfig, described once: reading, --set, config.toml and its comments all follow from it.
+struct Setting {
+    enum class Kind : std::uint8_t { value, text, list };   ///< text and list may come unquoted from a command line
+
+    std::string section;   ///< "" for the keys of the run itself
+    std::string key;
+    std::string doc;       ///< meaning, unit in brackets, range
+    Kind kind = Kind::value;
+    std::function<void(TomlTable const&)> read;   ///< from the table of its section, if the key is there
+    std::function<std::string()> text;            ///< the present value as TOML
+
+    std::string full_key() const { return section.empty() ? key : section + "." + key; }
+};
+
+/// All settings in the order of config.toml, bound to `config`: valid as long as it, and only at its address.
+std::vector<Setting> settings_of(ExperimentConfig& config);
+
+} // namespace lore
