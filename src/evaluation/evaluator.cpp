@@ -1,0 +1,29 @@
+#include <lore/evaluation/evaluator.h>
+
+namespace lore {
+
+Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& genome) {
+    Trace const trace = record_episode(context.arena, compile(genome), context.episode);
+    Evaluation evaluation;
+    evaluation.balls = trace.final_world.collected;
+    evaluation.descriptors = describe(context.arena, trace);
+    if (context.shaper)
+        evaluation.shaping = context.shaper->shaping(windows_of(trace, context.shaper->base().config().window_length));
+    return evaluation;
+}
+
+std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::span<Genome const* const> genomes) {
+    std::vector<Evaluation> evaluations;
+    for (Genome const* genome : genomes) evaluations.push_back(evaluate_plainly(context, *genome));
+    return evaluations;
+}
+
+void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix) {
+    measure_rows(kind, pool, known, static_cast<int>(pool.size()), matrix);
+}
+
+std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const> genomes) {
+    return evaluate_batch(context_, genomes);
+}
+
+} // namespace lore
