@@ -43,7 +43,8 @@ double adhoc_distance(Descriptors const& a, Descriptors const& b) {
 }
 
 double hamming_distance(Descriptors const& a, Descriptors const& b) {
-    auto const [shorter, longer] = std::minmax(a.bits.size(), b.bits.size());
+    std::size_t const shorter = std::min(a.bits.size(), b.bits.size());
+    std::size_t const longer = std::max(a.bits.size(), b.bits.size());
     if (longer == 0) return 0;
     std::size_t differing = (longer - shorter) * bits_per_step;
     for (std::size_t step = 0; step < shorter; ++step)
