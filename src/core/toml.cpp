@@ -178,6 +178,22 @@ std::vector<double> TomlTable::required_numbers(std::string_view key, std::size_
     return *std::move(values);
 }
 
+std::vector<std::array<double, 2>> TomlTable::required_pairs(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    if (node == nullptr) fail(key, "the key is missing", "Add it.");
+    toml::array const* const array = node->as_array();
+    if (array == nullptr) fail(key, "an array of pairs of numbers is expected");
+    std::vector<std::array<double, 2>> pairs;
+    for (toml::node const& element : *array) {
+        toml::array const* const pair = element.as_array();
+        if (pair == nullptr || pair->size() != 2 || !pair->get(0)->is_number() || !pair->get(1)->is_number())
+            fail(key, "an array of pairs of numbers is expected");
+        pairs.push_back({*pair->get(0)->value<double>(), *pair->get(1)->value<double>()});
+        if (!std::isfinite(pairs.back()[0]) || !std::isfinite(pairs.back()[1])) fail(key, "a value is not finite");
+    }
+    return pairs;
+}
+
 TomlTable TomlTable::required_table(std::string_view key) const {
     auto value = table(key);
     if (!value) fail(key, "the table is missing", "Add it.");

@@ -1,19 +1,16 @@
 #pragma once
 
+#include <lore/arena/shapes.h>
+
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lore {
 
-struct Point { float x = 0; float y = 0; friend bool operator==(Point const&, Point const&) = default; };
-
-/// Axis-aligned wall, x0 < x1, y0 < y1 [u]. y grows downwards.
-struct Rect { float x0 = 0, x1 = 0, y0 = 0, y1 = 0; friend bool operator==(Rect const&, Rect const&) = default; };
-
-/// Position [u] and heading [rad, in -pi..pi, from +x towards +y].
-struct Pose { float x = 0; float y = 0; float theta = 0; friend bool operator==(Pose const&, Pose const&) = default; };
+struct Geometry;
 
 /// The robot's body and its senses (paper, "Robot, environment and goal-oriented fitness").
 struct RobotConfig {
@@ -38,7 +35,7 @@ struct TaskRules {
 
 /// Everything of the world that never changes during an evaluation; immutable once made.
 ///
-/// At most 16 balls and 4 to 16 basket lights, so that one bit a light fits a word.
+/// At most 16 balls and 15 basket lights, so that one bit a light, the switch included, fits a word of 32.
 struct Arena {
     std::string name;
     float width = 0, height = 0;              ///< [u]
@@ -52,15 +49,16 @@ struct Arena {
     Pose  start;
     RobotConfig robot;
     TaskRules   task;
+    std::shared_ptr<Geometry const> geometry; ///< the above, compiled for simulation (arena/geometry.h)
 };
 
 inline constexpr int most_balls = 16;
-inline constexpr int most_basket_lights = 16;
+inline constexpr int most_basket_lights = 15;
 
 /// Reads an arena file (docs/formats.md) and takes one of its tasks. `file` is a path, or the name of a built-in arena
 /// ("collectball", the text of jobs/arenas/collectball.toml).
 /// Throws UsageError: unreadable, unknown key, arena not closed, a start pose, ball, switch or light inside a wall,
-/// sensors or effectors that the controller cannot serve, no such task.
+/// sensors or effectors that the controller cannot serve, a robot too fast for its size, no such task.
 Arena load_arena(std::string const& file, std::string const& task);
 /// The text that load_arena would parse, for keeping a copy beside a run's results.
 std::string arena_text(std::string const& file);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,6 +37,8 @@ public:
     double required_number(std::string_view key, double least, double most) const;
     std::string required_string(std::string_view key) const;
     std::vector<double> required_numbers(std::string_view key, std::size_t count) const;
+    /// An array of pairs, such as points [[x, y], ...].
+    std::vector<std::array<double, 2>> required_pairs(std::string_view key) const;
     TomlTable required_table(std::string_view key) const;
 
     /// Throws if the table holds a key that no getter has asked for.

@@ -11,7 +11,8 @@ namespace lore {
 
 struct EpisodeConfig {
     int steps = 4000;            ///< Length of an evaluation [steps]. Paper: 4000.
-    int stop_when_still = 0;     ///< Stop after this many cumulative steps without movement; 0: never (the predecessor: 100).
+    int stop_when_still = 0;     ///< Stop once more than this many steps in all went by without movement (position and
+                                 ///< heading changed by at most 1e-4); 0: never. The predecessor: 100.
 };
 
 /// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
@@ -30,6 +31,9 @@ struct Trace {
 
     int steps() const { return static_cast<int>(bits.size()); }
 };
+
+/// The word of Trace::bits for one step.
+std::uint16_t trace_bits(Sensors const&, Effectors const&);
 
 /// One step as an observer sees it; `world` is after the action, `next` after the move.
 struct StepView {

@@ -1,0 +1,67 @@
+#include <lore/episode/episode.h>
+
+#include <cmath>
+
+namespace lore {
+
+namespace {
+
+/// A step counts as still if neither coordinate nor the heading changed by more than this (the predecessor's value).
+constexpr float still_change = 1e-4f;   // [u], [rad]
+
+bool is_still(Pose const& before, Pose const& after) {
+    return std::abs(after.x - before.x) <= still_change && std::abs(after.y - before.y) <= still_change
+        && std::abs(after.theta - before.theta) <= still_change;
+}
+
+/// The loop itself; `observe` is inlined, so that recording costs no call.
+template <class Observe>
+WorldState simulate(Arena const& arena, Network const& network, EpisodeConfig const& config, Observe&& observe) {
+    RobotState robot = start_robot(arena);
+    WorldState world = start_world(arena);
+    NetworkState state;
+    int still_steps = 0;
+    for (int step = 0; step < config.steps; ++step) {
+        Sensors const sensors = sense(arena, robot, world);
+        Effectors effectors;
+        tick(network, sensors, state, effectors);
+        Pose const pose = robot.pose;
+        act(arena, pose, effectors, world);
+        move(arena, effectors, world, robot);
+        observe(StepView{step, pose, sensors, effectors, world, robot});
+        if (config.stop_when_still > 0 && is_still(pose, robot.pose) && ++still_steps > config.stop_when_still) break;
+    }
+    return world;
+}
+
+} // namespace
+
+std::uint16_t trace_bits(Sensors const& sensors, Effectors const& effectors) {
+    auto const channel = [&](int c) { return c < sensor_count ? sensors[static_cast<std::size_t>(c)] : effectors[static_cast<std::size_t>(c - sensor_count)]; };
+    unsigned bits = 0, bit = 0;
+    for (int const c : binary_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
+    for (int const c : continuous_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
+    return static_cast<std::uint16_t>(bits);
+}
+
+WorldState run_episode(Arena const& arena, Network const& network, EpisodeConfig const& config,
+                       std::function<void(StepView const&)> const& observe) {
+    return simulate(arena, network, config, [&](StepView const& view) { observe(view); });
+}
+
+Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig const& config) {
+    Trace trace;
+    auto const steps = static_cast<std::size_t>(config.steps);
+    trace.bits.reserve(steps);
+    trace.poses.reserve(steps);
+    trace.values.reserve(steps * continuous_count);
+    trace.final_world = simulate(arena, network, config, [&](StepView const& view) {
+        trace.bits.push_back(trace_bits(view.sensors, view.effectors));
+        trace.poses.push_back(view.pose);
+        trace.values.insert(trace.values.end(), view.sensors.begin(), view.sensors.begin() + 3);
+        trace.values.insert(trace.values.end(), view.effectors.begin(), view.effectors.end());
+    });
+    return trace;
+}
+
+} // namespace lore
