@@ -27,7 +27,7 @@ constexpr std::uint32_t byte_order_mark = 0x01020304;
 constexpr std::uint32_t flag_zstd = 1;
 constexpr std::uint64_t most_raw_bytes = std::uint64_t{4} << 30;   ///< no payload of Lore comes near it
 constexpr std::uint64_t most_expansion = 32768;                    ///< zstd's own limit: 128 KiB from a 4-byte block
-constexpr int zstd_level = 6;
+constexpr int careful_level = 6, fast_level = 1;
 
 /// The first 64 bytes of a file, in the machine's byte order, which byte_order gives away.
 struct Header {
@@ -131,10 +131,10 @@ Bytes seal(FileKind kind, std::span<std::byte const> payload, Packing packing) {
     header.kind = static_cast<std::uint32_t>(kind);
     header.raw_length = payload.size();
     Bytes file(sizeof(Header));
-    if (packing == Packing::compressed) {
+    if (packing != Packing::plain) {
         file.resize(sizeof(Header) + ZSTD_compressBound(payload.size()));
         std::size_t const packed = ZSTD_compress(file.data() + sizeof(Header), file.size() - sizeof(Header), payload.data(),
-                                                 payload.size(), zstd_level);
+                                                 payload.size(), packing == Packing::fast ? fast_level : careful_level);
         if (!ZSTD_isError(packed) && packed < payload.size()) {
             header.flags = flag_zstd;
             file.resize(sizeof(Header) + packed);

@@ -21,8 +21,8 @@ inline constexpr std::uint32_t container_version = 1;
 /// A payload starts at this offset of its file, so that arrays of a mapped payload are aligned like their file.
 inline constexpr std::size_t container_header_size = 64;
 
-/// Whether the payload is zstd-compressed; a file that is to be mapped stays plain.
-enum class Packing : std::uint8_t { compressed, plain };
+/// How the payload is stored: compressed by zstd with care, or fast (what is soon replaced); plain if it is to be mapped.
+enum class Packing : std::uint8_t { compressed, fast, plain };
 
 /// Every binary file of Lore: magic, format version, kind, byte order, payload length, flags and checksum (XXH3-64) in
 /// front of a payload that is zstd-compressed where that pays. All of it is checked before anyone parses the payload;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <lore/archive/container.h>
+#include <lore/evolution/evolution.h>
+
+#include <cstdint>
+#include <string>
+
+namespace lore {
+
+/// A run at the end of a generation: what it takes to go on as if nothing had happened.
+///
+/// Streams have no state (core/random.h), so the population with its ancestors and the signature are all of evolution;
+/// the rest are the run's books.
+struct Checkpoint {
+    EvolutionState state;
+    std::uint64_t seed = 0;
+    std::uint64_t config_digest = 0;      ///< of the settings that results depend on; must fit those resumed with
+    std::uint64_t evaluations = 0, steps = 0;
+    double seconds = 0;                   ///< wall time of all sessions
+    std::uint64_t progress_bytes = 0;     ///< length of progress.csv
+    std::uint64_t archive_bytes = 0;      ///< length of all.lore, 0 without
+    std::uint64_t archive_chain = 0;      ///< its running checksum
+};
+
+Bytes pack_checkpoint(Checkpoint const&);
+/// `name` is what errors call it.
+Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_view name);
+
+/// The former checkpoint stays as `older`; at every moment one of the two is whole.
+void write_checkpoint(std::string const& path, std::string const& older, Checkpoint const&);
+
+struct FoundCheckpoint {
+    Checkpoint checkpoint;
+    std::string warning;   ///< why the newer one was not taken, or ""
+};
+/// The newer of the two that is whole. Throws the newer one's Error if neither is.
+FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older);
+
+} // namespace lore

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <lore/archive/container.h>
+#include <lore/evaluation/evaluator.h>
+
+#include <span>
+#include <vector>
+
+namespace lore {
+
+/// What ranks say to each other, as bytes: one flat copy each way, no cost per value. Both ends run the same program on
+/// processors of one byte order, so that numbers travel as they lie in memory; Readers throw Error on bytes that no
+/// writer wrote.
+
+Bytes pack_genomes(std::span<Genome const* const>);
+std::vector<Genome> unpack_genomes(std::span<std::byte const>);
+
+/// About 8.4 kB an evaluation of 4000 steps, nearly all of it the Hamming bits.
+Bytes pack_evaluations(std::span<Evaluation const>);
+std::vector<Evaluation> unpack_evaluations(std::span<std::byte const>);
+
+/// Rows [first, last) of a matrix of trajectory distances, and the paths of pool members 0 .. last-1 that they need.
+struct RowRequest {
+    int first = 0, last = 0;
+    std::vector<Descriptors> pool;   ///< paths only
+};
+Bytes pack_rows(int first, int last, std::span<Descriptors const* const> pool);
+RowRequest unpack_rows(std::span<std::byte const>);
+
+/// The distances (i, j), j < i, of those rows, row after row.
+Bytes pack_distances(int first, int last, DistanceMatrix const&);
+void unpack_distances(std::span<std::byte const>, int first, int last, DistanceMatrix&);
+
+} // namespace lore

@@ -1,0 +1,191 @@
+#pragma once
+
+// How Boost.Serialization sees Lore's types: the one door to <boost/...>. No type knows that it can be written.
+//
+// Arrays travel as blobs. A count is checked against its limit and against the bytes that are left before memory is
+// taken for it, since Boost itself believes what it reads.
+
+#include <lore/archive/container.h>
+#include <lore/core/error.h>
+#include <lore/evolution/individual.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/binary_object.hpp>
+#include <boost/serialization/level.hpp>
+#include <boost/serialization/split_free.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/tracking.hpp>
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <streambuf>
+#include <string>
+#include <type_traits>
+
+namespace lore {
+
+/// Grows a vector of bytes; what Boost writes goes there without a stringstream's copies.
+class ByteSink : public std::streambuf {
+public:
+    Bytes bytes;
+
+protected:
+    std::streamsize xsputn(char const* data, std::streamsize count) override {
+        auto const* const first = reinterpret_cast<std::byte const*>(data);
+        bytes.insert(bytes.end(), first, first + count);
+        return count;
+    }
+    int_type overflow(int_type c) override {
+        bytes.push_back(static_cast<std::byte>(c));
+        return c;
+    }
+};
+
+class ByteSource : public std::streambuf {
+public:
+    explicit ByteSource(std::span<std::byte const> bytes) {
+        char* const first = const_cast<char*>(reinterpret_cast<char const*>(bytes.data()));
+        setg(first, first, first + bytes.size());
+    }
+    std::size_t left() const { return static_cast<std::size_t>(egptr() - gptr()); }
+};
+
+using OutArchive = boost::archive::binary_oarchive;
+
+/// Boost's archive, and how much is left to read.
+class InArchive : public boost::archive::binary_iarchive_impl<InArchive, char, std::char_traits<char>> {
+    using Base = boost::archive::binary_iarchive_impl<InArchive, char, std::char_traits<char>>;
+    friend class boost::archive::detail::interface_iarchive<InArchive>;
+    friend class boost::archive::basic_binary_iarchive<InArchive>;
+    friend class boost::archive::load_access;
+
+public:
+    explicit InArchive(ByteSource& source) : Base(source, 0), source_(&source) { init(0u); }
+    std::size_t left() const { return source_->left(); }
+    [[noreturn]] void fail(std::string const& reason) const { throw std::out_of_range(reason); }
+
+private:
+    ByteSource* source_;
+};
+
+/// Reads `payload` by `read(archive)`; Boost's and our complaints become one Error about `name`.
+template <class Read>
+void read_with_boost(std::span<std::byte const> payload, std::string_view name, Read const& read) {
+    std::string reason;
+    try {
+        ByteSource source{payload};
+        InArchive archive{source};
+        read(archive);
+        if (archive.left() != 0) archive.fail("more follows than expected");
+        return;
+    } catch (boost::archive::archive_exception const& error) {
+        reason = error.code == boost::archive::archive_exception::unsupported_version
+            ? "written with a newer Boost.Serialization" : error.what();
+    } catch (std::out_of_range const& error) {
+        reason = error.what();
+    } catch (std::length_error const&) {
+        reason = "a length is out of range";
+    }
+    throw Error(fmt::format("cannot read {}", name), reason, "Take a copy that is whole, or make the file again.");
+}
+
+template <class Write>
+Bytes write_with_boost(Write const& write) {
+    ByteSink sink;
+    {
+        OutArchive archive{sink};
+        write(archive);
+    }
+    return std::move(sink.bytes);
+}
+
+/// A vector of plain values as a count and one blob.
+template <class T>
+void put_blob(OutArchive& archive, std::vector<T> const& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::uint64_t const count = values.size();
+    archive << count;
+    if (count != 0) archive.save_binary(values.data(), values.size() * sizeof(T));
+}
+template <class T>
+void get_blob(InArchive& archive, std::vector<T>& values, std::size_t most) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::uint64_t count = 0;
+    archive >> count;
+    if (count > most || count > archive.left() / sizeof(T)) archive.fail("a count is out of range");
+    values.resize(static_cast<std::size_t>(count));
+    if (count != 0) archive.load_binary(values.data(), values.size() * sizeof(T));
+}
+/// A count of things that take at least `least_bytes` each.
+inline std::size_t get_count(InArchive& archive, std::size_t least_bytes) {
+    std::uint64_t count = 0;
+    archive >> count;
+    if (count > archive.left() / least_bytes) archive.fail("a count is out of range");
+    return static_cast<std::size_t>(count);
+}
+
+/// Edges without the padding that struct Edge has in memory.
+struct PackedEdge {
+    NeuronIndex source, target;
+    unsigned char weight[4];
+};
+static_assert(sizeof(PackedEdge) == 6);
+
+} // namespace lore
+
+namespace boost::serialization {
+
+inline void save(lore::OutArchive& archive, lore::Genome const& genome, unsigned) {
+    std::vector<lore::PackedEdge> edges(genome.edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        edges[i].source = genome.edges[i].source;
+        edges[i].target = genome.edges[i].target;
+        std::memcpy(edges[i].weight, &genome.edges[i].weight, 4);
+    }
+    lore::put_blob(archive, edges);
+    lore::put_blob(archive, genome.biases);
+}
+inline void load(lore::InArchive& archive, lore::Genome& genome, unsigned) {
+    std::vector<lore::PackedEdge> edges;
+    lore::get_blob(archive, edges, lore::most_edges);
+    lore::get_blob(archive, genome.biases, lore::effector_count + lore::most_hidden);
+    genome.edges.resize(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        genome.edges[i].source = edges[i].source;
+        genome.edges[i].target = edges[i].target;
+        std::memcpy(&genome.edges[i].weight, edges[i].weight, 4);
+    }
+    if (std::string const why = lore::why_invalid(genome); !why.empty()) archive.fail("an invalid genome: " + why);
+}
+
+template <class Archive>
+void serialize(Archive& archive, lore::IndividualId& id, unsigned) { archive & id.generation & id.slot; }
+
+inline void save(lore::OutArchive& archive, lore::Descriptors const& descriptors, unsigned) {
+    lore::put_blob(archive, descriptors.balls);
+    lore::put_blob(archive, descriptors.bits);
+    lore::put_blob(archive, descriptors.path);
+    archive.save_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
+}
+inline void load(lore::InArchive& archive, lore::Descriptors& descriptors, unsigned) {
+    constexpr std::size_t any = SIZE_MAX;
+    lore::get_blob(archive, descriptors.balls, lore::most_balls);
+    lore::get_blob(archive, descriptors.bits, any);
+    lore::get_blob(archive, descriptors.path, any);
+    archive.load_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
+}
+
+} // namespace boost::serialization
+
+BOOST_SERIALIZATION_SPLIT_FREE(lore::Genome)
+BOOST_SERIALIZATION_SPLIT_FREE(lore::Descriptors)
+// The container's format version covers all of them; Boost's own class versions and tracking would only take space.
+BOOST_CLASS_IMPLEMENTATION(lore::Genome, boost::serialization::object_serializable)
+BOOST_CLASS_IMPLEMENTATION(lore::Descriptors, boost::serialization::object_serializable)
+BOOST_CLASS_IMPLEMENTATION(lore::IndividualId, boost::serialization::object_serializable)
+BOOST_CLASS_TRACKING(lore::Genome, boost::serialization::track_never)
+BOOST_CLASS_TRACKING(lore::Descriptors, boost::serialization::track_never)
+BOOST_CLASS_TRACKING(lore::IndividualId, boost::serialization::track_never)
+BOOST_SERIALIZATION_REGISTER_ARCHIVE(lore::InArchive)

@@ -1,0 +1,121 @@
+#include <lore/archive/messages.h>
+
+#include "byte_stream.h"
+
+namespace lore {
+
+namespace {
+
+constexpr std::size_t most_batch = 1u << 20;
+
+} // namespace
+
+Bytes pack_genomes(std::span<Genome const* const> genomes) {
+    ByteWriter out;
+    out.put_varint(genomes.size());
+    for (Genome const* genome : genomes) {
+        out.put_varint(genome->edges.size());
+        out.put_varint(genome->biases.size());
+        for (Edge const& edge : genome->edges) {
+            out.put(edge.source);
+            out.put(edge.target);
+            out.put(edge.weight);
+        }
+        out.put_all(std::span{genome->biases});
+    }
+    return out.take();
+}
+
+std::vector<Genome> unpack_genomes(std::span<std::byte const> bytes) {
+    ByteReader in{bytes, "a message with genomes"};
+    std::vector<Genome> genomes(in.get_count(std::min(most_batch, bytes.size())));
+    for (Genome& genome : genomes) {
+        genome.edges.resize(in.get_count(most_edges));
+        std::size_t const biases = in.get_count(effector_count + most_hidden);
+        for (Edge& edge : genome.edges) {
+            edge.source = in.get<NeuronIndex>();
+            edge.target = in.get<NeuronIndex>();
+            edge.weight = in.get<float>();
+        }
+        genome.biases = in.get_all<float>(biases);
+    }
+    in.expect_end();
+    return genomes;
+}
+
+Bytes pack_evaluations(std::span<Evaluation const> evaluations) {
+    ByteWriter out;
+    out.put_varint(evaluations.size());
+    for (Evaluation const& evaluation : evaluations) {
+        Descriptors const& descriptors = evaluation.descriptors;
+        out.put(std::int32_t{evaluation.balls});
+        out.put(evaluation.shaping);
+        out.put_varint(descriptors.balls.size());
+        out.put_varint(descriptors.bits.size());
+        out.put_varint(descriptors.path.size());
+        out.put_all(std::span{descriptors.balls});
+        out.put_all(std::span{descriptors.bits});
+        out.put_all(std::span{descriptors.path});
+        out.put(descriptors.entropies);
+    }
+    return out.take();
+}
+
+std::vector<Evaluation> unpack_evaluations(std::span<std::byte const> bytes) {
+    ByteReader in{bytes, "a message with evaluations"};
+    std::vector<Evaluation> evaluations(in.get_count(std::min(most_batch, bytes.size())));
+    for (Evaluation& evaluation : evaluations) {
+        Descriptors& descriptors = evaluation.descriptors;
+        evaluation.balls = in.get<std::int32_t>();
+        evaluation.shaping = in.get<double>();
+        std::size_t const balls = in.get_count(most_balls);
+        std::size_t const bits = in.get_count(bytes.size());
+        std::size_t const path = in.get_count(bytes.size());
+        descriptors.balls = in.get_all<Point>(balls);
+        descriptors.bits = in.get_all<std::uint16_t>(bits);
+        descriptors.path = in.get_all<Tile>(path);
+        descriptors.entropies = in.get<std::array<double, channel_count>>();
+    }
+    in.expect_end();
+    return evaluations;
+}
+
+Bytes pack_rows(int first, int last, std::span<Descriptors const* const> pool) {
+    ByteWriter out;
+    out.put(std::int32_t{first});
+    out.put(std::int32_t{last});
+    for (Descriptors const* member : pool.first(static_cast<std::size_t>(last))) {
+        out.put_varint(member->path.size());
+        out.put_all(std::span{member->path});
+    }
+    return out.take();
+}
+
+RowRequest unpack_rows(std::span<std::byte const> bytes) {
+    ByteReader in{bytes, "a message with paths"};
+    RowRequest request;
+    request.first = in.get<std::int32_t>();
+    request.last = in.get<std::int32_t>();
+    if (request.first < 0 || request.last < request.first || static_cast<std::size_t>(request.last) > bytes.size())
+        in.fail("its rows are out of range");
+    request.pool.resize(static_cast<std::size_t>(request.last));
+    for (Descriptors& member : request.pool) member.path = in.get_all<Tile>(in.get_count(bytes.size()));
+    in.expect_end();
+    return request;
+}
+
+Bytes pack_distances(int first, int last, DistanceMatrix const& matrix) {
+    ByteWriter out;
+    for (int i = first; i < last; ++i)
+        for (int j = 0; j < i; ++j) out.put(matrix(i, j));
+    return out.take();
+}
+
+void unpack_distances(std::span<std::byte const> bytes, int first, int last, DistanceMatrix& matrix) {
+    ByteReader in{bytes, "a message with distances"};
+    for (int i = first; i < last; ++i)
+        for (int j = 0; j < i; ++j) matrix.set(i, j, in.get<double>());
+    in.expect_end();
+}
+
+} // namespace lore
