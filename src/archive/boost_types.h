@@ -14,7 +14,6 @@
 #include <boost/serialization/binary_object.hpp>
 #include <boost/serialization/level.hpp>
 #include <boost/serialization/split_free.hpp>
-#include <boost/serialization/string.hpp>
 #include <boost/serialization/tracking.hpp>
 
 #include <fmt/format.h>
@@ -22,6 +21,7 @@
 #include <cstring>
 #include <streambuf>
 #include <string>
+#include <stdexcept>
 #include <type_traits>
 
 namespace lore {
@@ -55,16 +55,13 @@ public:
 using OutArchive = boost::archive::binary_oarchive;
 
 /// Boost's archive, and how much is left to read.
-class InArchive : public boost::archive::binary_iarchive_impl<InArchive, char, std::char_traits<char>> {
-    using Base = boost::archive::binary_iarchive_impl<InArchive, char, std::char_traits<char>>;
-    friend class boost::archive::detail::interface_iarchive<InArchive>;
-    friend class boost::archive::basic_binary_iarchive<InArchive>;
-    friend class boost::archive::load_access;
-
+class InArchive : public boost::archive::binary_iarchive {
 public:
-    explicit InArchive(ByteSource& source) : Base(source, 0), source_(&source) { init(0u); }
+    explicit InArchive(ByteSource& source) : binary_iarchive(source, 0), source_(&source) {}
     std::size_t left() const { return source_->left(); }
     [[noreturn]] void fail(std::string const& reason) const { throw std::out_of_range(reason); }
+    /// Boost hands our load functions its own type; every archive that Lore reads from is one of these.
+    static InArchive& from(boost::archive::binary_iarchive& archive) { return static_cast<InArchive&>(archive); }
 
 private:
     ByteSource* source_;
@@ -147,7 +144,8 @@ inline void save(lore::OutArchive& archive, lore::Genome const& genome, unsigned
     lore::put_blob(archive, edges);
     lore::put_blob(archive, genome.biases);
 }
-inline void load(lore::InArchive& archive, lore::Genome& genome, unsigned) {
+inline void load(boost::archive::binary_iarchive& any, lore::Genome& genome, unsigned) {
+    auto& archive = lore::InArchive::from(any);
     std::vector<lore::PackedEdge> edges;
     lore::get_blob(archive, edges, lore::most_edges);
     lore::get_blob(archive, genome.biases, lore::effector_count + lore::most_hidden);
@@ -169,11 +167,11 @@ inline void save(lore::OutArchive& archive, lore::Descriptors const& descriptors
     lore::put_blob(archive, descriptors.path);
     archive.save_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
 }
-inline void load(lore::InArchive& archive, lore::Descriptors& descriptors, unsigned) {
-    constexpr std::size_t any = SIZE_MAX;
+inline void load(boost::archive::binary_iarchive& any, lore::Descriptors& descriptors, unsigned) {
+    auto& archive = lore::InArchive::from(any);
     lore::get_blob(archive, descriptors.balls, lore::most_balls);
-    lore::get_blob(archive, descriptors.bits, any);
-    lore::get_blob(archive, descriptors.path, any);
+    lore::get_blob(archive, descriptors.bits, SIZE_MAX);
+    lore::get_blob(archive, descriptors.path, SIZE_MAX);
     archive.load_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
 }
 
@@ -188,4 +186,3 @@ BOOST_CLASS_IMPLEMENTATION(lore::IndividualId, boost::serialization::object_seri
 BOOST_CLASS_TRACKING(lore::Genome, boost::serialization::track_never)
 BOOST_CLASS_TRACKING(lore::Descriptors, boost::serialization::track_never)
 BOOST_CLASS_TRACKING(lore::IndividualId, boost::serialization::track_never)
-BOOST_SERIALIZATION_REGISTER_ARCHIVE(lore::InArchive)

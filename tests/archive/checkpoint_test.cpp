@@ -1,0 +1,79 @@
+#include <lore/archive/checkpoint.h>
+
+#include "archive/random_population.h"
+#include "support/scratch.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+using namespace lore;
+
+namespace {
+
+Checkpoint checkpoint_at(int generation) {
+    Checkpoint checkpoint;
+    checkpoint.state = evolved(generation);
+    checkpoint.seed = 1;
+    checkpoint.config_digest = 77;
+    checkpoint.progress_bytes = 123;
+    checkpoint.seconds = 1.5;
+    return checkpoint;
+}
+
+} // namespace
+
+TEST(Checkpoint, continues_to_the_same_bytes_as_a_straight_run_from_any_generation) {
+    PretendedEvaluator evaluator;
+    auto const go_on = [](GenerationReport const&) { return true; };
+    EvolutionState const straight = evolved(30);
+    for (int stop : {0, 1, 4, 5, 6, 17, 29, 30}) {
+        Checkpoint const read = unpack_checkpoint(pack_checkpoint(checkpoint_at(stop)), "x");
+        EvolutionState const resumed = evolve(small_evolution(30), 1, evaluator, read.state, go_on);
+        EXPECT_EQ(resumed.signature.value(), straight.signature.value()) << stop;
+        Checkpoint a, b;
+        a.state = straight;
+        b.state = resumed;
+        EXPECT_EQ(pack_checkpoint(a), pack_checkpoint(b)) << stop;
+    }
+}
+
+TEST(Checkpoint, keeps_the_last_two_and_falls_back_to_the_older_with_a_warning) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    for (int generation : {1, 2, 3}) write_checkpoint(path, older, checkpoint_at(generation));
+    FoundCheckpoint found = read_checkpoint(path, older);
+    EXPECT_EQ(found.checkpoint.state.population.generation, 3);
+    EXPECT_EQ(found.checkpoint.progress_bytes, 123u);
+    EXPECT_EQ(found.warning, "");
+
+    auto bytes = read_file(path);
+    bytes[bytes.size() / 2] ^= std::byte{1};
+    write_file_atomically(path, std::span<std::byte const>{bytes});
+    found = read_checkpoint(path, older);
+    EXPECT_EQ(found.checkpoint.state.population.generation, 2);
+    EXPECT_THAT(found.warning, ::testing::HasSubstr("checksum mismatch"));
+
+    std::filesystem::remove(path);
+    EXPECT_EQ(read_checkpoint(path, older).checkpoint.state.population.generation, 2);
+    std::filesystem::remove(older);
+    EXPECT_THROW(read_checkpoint(path, older), Error);
+}
+
+TEST(Checkpoint, refuses_a_payload_cut_at_any_length) {
+    Bytes const payload = pack_checkpoint(checkpoint_at(2));
+    for (std::size_t length = 0; length < payload.size(); length += length < 400 ? 1 : 131)
+        EXPECT_THROW(unpack_checkpoint(std::span{payload}.first(length), "x"), Error) << length;
+}
+
+TEST(Checkpoint, survives_a_changed_byte_anywhere) {
+    Bytes payload = pack_checkpoint(checkpoint_at(1));
+    for (std::size_t at = 0; at < payload.size(); at += at < 1000 ? 1 : 53) {
+        payload[at] ^= std::byte{0xff};
+        try { unpack_checkpoint(payload, "x"); } catch (Error const&) {}
+        payload[at] ^= std::byte{0xff};
+    }
+}
