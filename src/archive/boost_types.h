@@ -52,12 +52,16 @@ public:
     std::size_t left() const { return static_cast<std::size_t>(egptr() - gptr()); }
 };
 
-using OutArchive = boost::archive::binary_oarchive;
+/// Without Boost's own header: the container has ours, and Boost would believe the lengths in its own.
+class OutArchive : public boost::archive::binary_oarchive {
+public:
+    explicit OutArchive(ByteSink& sink) : binary_oarchive(sink, boost::archive::no_header) {}
+};
 
 /// Boost's archive, and how much is left to read.
 class InArchive : public boost::archive::binary_iarchive {
 public:
-    explicit InArchive(ByteSource& source) : binary_iarchive(source, 0), source_(&source) {}
+    explicit InArchive(ByteSource& source) : binary_iarchive(source, boost::archive::no_header), source_(&source) {}
     std::size_t left() const { return source_->left(); }
     [[noreturn]] void fail(std::string const& reason) const { throw std::out_of_range(reason); }
     /// Boost hands our load functions its own type; every archive that Lore reads from is one of these.
@@ -78,8 +82,7 @@ void read_with_boost(std::span<std::byte const> payload, std::string_view name, 
         if (archive.left() != 0) archive.fail("more follows than expected");
         return;
     } catch (boost::archive::archive_exception const& error) {
-        reason = error.code == boost::archive::archive_exception::unsupported_version
-            ? "written with a newer Boost.Serialization" : error.what();
+        reason = error.what();
     } catch (std::out_of_range const& error) {
         reason = error.what();
     } catch (std::length_error const&) {
@@ -100,7 +103,7 @@ Bytes write_with_boost(Write const& write) {
 
 /// A vector of plain values as a count and one blob.
 template <class T>
-void put_blob(OutArchive& archive, std::vector<T> const& values) {
+void put_blob(boost::archive::binary_oarchive& archive, std::vector<T> const& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     std::uint64_t const count = values.size();
     archive << count;
@@ -134,7 +137,7 @@ static_assert(sizeof(PackedEdge) == 6);
 
 namespace boost::serialization {
 
-inline void save(lore::OutArchive& archive, lore::Genome const& genome, unsigned) {
+inline void save(boost::archive::binary_oarchive& archive, lore::Genome const& genome, unsigned) {
     std::vector<lore::PackedEdge> edges(genome.edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         edges[i].source = genome.edges[i].source;
@@ -161,7 +164,7 @@ inline void load(boost::archive::binary_iarchive& any, lore::Genome& genome, uns
 template <class Archive>
 void serialize(Archive& archive, lore::IndividualId& id, unsigned) { archive & id.generation & id.slot; }
 
-inline void save(lore::OutArchive& archive, lore::Descriptors const& descriptors, unsigned) {
+inline void save(boost::archive::binary_oarchive& archive, lore::Descriptors const& descriptors, unsigned) {
     lore::put_blob(archive, descriptors.balls);
     lore::put_blob(archive, descriptors.bits);
     lore::put_blob(archive, descriptors.path);

@@ -28,9 +28,11 @@ void write_lineage(std::string const& path, Population const& population) {
     }));
 }
 
-LineageArchive read_lineage(std::string const& path) {
+LineageArchive read_lineage(std::string const& path) { return unpack_lineage(read_container(path, FileKind::lineage), path); }
+
+LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name) {
     LineageArchive lineage;
-    read_with_boost(read_container(path, FileKind::lineage), path, [&](InArchive& archive) {
+    read_with_boost(payload, name, [&](InArchive& archive) {
         lineage.births = get_births(archive);
         std::int32_t generation = 0;
         archive >> generation >> lineage.best;

@@ -2,8 +2,11 @@
 
 #include <lore/evolution/individual.h>
 
-#include <functional>
+#include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lore {
@@ -20,5 +23,7 @@ struct LineageArchive {
 
 void write_lineage(std::string const& path, Population const&);
 LineageArchive read_lineage(std::string const& path);
+/// From a container's payload; `name` is what errors call it.
+LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name);
 
 } // namespace lore
