@@ -1,0 +1,55 @@
+#pragma once
+
+#include <lore/evolution/evolution.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace lore {
+
+/// Every individual that a run ever evaluated (`--archive all`): a file that only grows, frame after frame.
+///
+/// A frame holds the generations since the last one; a child is written as its difference from its parent (about 30
+/// bytes), and each generation says who survived it, so that writer and reader alike keep one population and no more.
+/// Each frame has its own lengths and a checksum that runs on from frame to frame: none can be changed, lost or swapped
+/// unnoticed.
+class AllIndividualsWriter {
+public:
+    /// Starts a new file.
+    explicit AllIndividualsWriter(std::string path);
+    /// Goes on after a checkpoint: cuts the file back to `bytes`, whose running checksum was `chain`, with the
+    /// population of that moment. Throws Error if the file is shorter.
+    AllIndividualsWriter(std::string path, std::uint64_t bytes, std::uint64_t chain, Population const&);
+    ~AllIndividualsWriter();
+
+    /// Call it for every generation in order. Writes a frame when enough has gathered.
+    void add(GenerationReport const&);
+    /// Writes what has gathered and makes it durable.
+    void flush();
+    std::uint64_t bytes() const;   ///< length of the file, as of the last frame
+    std::uint64_t chain() const;   ///< running checksum at that place
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+struct ArchivedIndividual {
+    IndividualId id;
+    std::optional<IndividualId> parent;   ///< none for founders
+    Genome const& genome;                 ///< valid during the call
+    int balls = 0;
+};
+
+/// Calls back for every individual in order of birth, up to and including generation `through`; memory is bounded by two
+/// populations and a frame. Throws Error: missing, damaged, or ending before that generation.
+void for_each_individual(std::string const& path, int through, std::function<void(ArchivedIndividual const&)> const&);
+
+/// Generations and individuals of a file, all frames checked. Throws Error.
+struct AllIndividualsSummary { int generations = 0; std::uint64_t individuals = 0; std::uint64_t bytes = 0; };
+AllIndividualsSummary check_all_individuals(std::string const& path);
+
+} // namespace lore
