@@ -1,13 +1,13 @@
 # How a module and a program of Lore are declared; one place for flags that decide results.
 
-set(CMAKE_CXX_STANDARD 20)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 add_library(lore_flags INTERFACE)
 # Results are equal to the bit on every compiler and processor only if no multiplication is fused with an addition.
-target_compile_options(lore_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wno-psabi)
+target_compile_features(lore_flags INTERFACE cxx_std_20)
+target_compile_options(lore_flags INTERFACE -ffp-contract=off -Wno-psabi $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra>
+  $<BUILD_INTERFACE:-Wpedantic>)
 target_include_directories(lore_flags INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-LEVELS = [["core", "statistics"], ["network", "arena"], ["episode"], ["behavior", "knowledge"], ["evaluation"],
+LEVELS = [["core"], ["statistics", "network", "arena"], ["episode"], ["behavior", "knowledge"], ["evaluation"],
           ["evolution"], ["archive"], ["cluster", "figure"], ["experiment"], ["campaign"]]
 LEVEL = {module: level for level, row in enumerate(LEVELS) for module in row}
 
