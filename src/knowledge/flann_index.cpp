@@ -1,7 +1,109 @@
 #include <lore/knowledge/index.h>
 
+// The only door to FLANN (1.9): its L2 is the squared distance, its matrices do not own memory, it crashes on an empty
+// data set, accepts NaN, and leaves garbage where more neighbours are asked for than there are points. Nothing of that
+// passes this file.
+#include <flann/flann.hpp>
+
+#include <cassert>
+
 namespace lore {
 
-std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const& config, int, int) { return make_scan_index(config); }
+namespace {
+
+/// The forest is built anew once it has grown by this factor: each point is then rebuilt about once on average, and
+/// no tree degenerates. FLANN's own default.
+constexpr float rebuild_factor = 2.0f;
+constexpr std::size_t rows_per_chunk = 1024;
+
+/// A window as FLANN sees it: all channels of all steps in a row of floats.
+void flatten(Window const& window, float* row) {
+    for (std::size_t step = 0; step < window.bits.size(); ++step) {
+        for (int channel = 0; channel < binary_count; ++channel) *row++ = static_cast<float>(window.bits[step] >> channel & 1);
+        for (int channel = 0; channel < continuous_count; ++channel) *row++ = window.values[step * continuous_count + static_cast<std::size_t>(channel)];
+    }
+}
+
+class FlannIndex : public FeatureIndex {
+public:
+    FlannIndex(KnowledgeConfig const& config, int trees, int checks)
+        : config_(config), columns_(static_cast<std::size_t>(config.window_length) * channel_count), trees_(trees), search_(checks) {
+        search_.cores = 1;
+    }
+
+    void add(Window const& window) override {
+        float* const row = next_row();
+        flatten(window, row);
+        bits_.insert(bits_.end(), window.bits.begin(), window.bits.end());
+        values_.insert(values_.end(), window.values.begin(), window.values.end());
+        flann::Matrix<float> const point{row, 1, columns_};
+        if (forest_ == nullptr) {
+            forest_ = std::make_unique<Forest>(point, flann::KDTreeIndexParams{trees_});
+            forest_->buildIndex();
+        } else {
+            forest_->addPoints(point, rebuild_factor);
+        }
+        ++size_;
+    }
+    int size() const override { return size_; }
+    std::unique_ptr<FeatureSearch> search() const override;
+
+    Match match(Window const& window, std::vector<float>& row) const {
+        if (size_ == 0) return {};
+        row.resize(columns_);
+        flatten(window, row.data());
+        int neighbour = -1;
+        float flann_distance = 0;
+        flann::Matrix<float> const query{row.data(), 1, columns_};
+        flann::Matrix<int> neighbours{&neighbour, 1, 1};
+        flann::Matrix<float> distances{&flann_distance, 1, 1};
+        if (forest_->knnSearch(query, neighbours, distances, 1, search_) < 1 || neighbour < 0 || neighbour >= size_) return {};
+        // FLANN sums in an order of its own; what counts as a match is decided by our distance.
+        auto const length = static_cast<std::size_t>(config_.window_length);
+        std::size_t const first = static_cast<std::size_t>(neighbour) * length;
+        float const distance = squared_distance(
+            window, {{bits_.data() + first, length}, {values_.data() + first * continuous_count, length * continuous_count}});
+        return distance < config_.squared_threshold() ? Match{neighbour, distance} : Match{};
+    }
+
+private:
+    using Forest = flann::KDTreeIndex<flann::L2<float>>;
+
+    /// The forest keeps pointers to its points, so that rows must never move.
+    float* next_row() {
+        std::size_t const place = static_cast<std::size_t>(size_) % rows_per_chunk;
+        if (place == 0) chunks_.push_back(std::make_unique<float[]>(rows_per_chunk * columns_));
+        return chunks_.back().get() + place * columns_;
+    }
+
+    KnowledgeConfig config_;
+    std::size_t columns_;
+    int trees_;
+    flann::SearchParams search_;
+    std::vector<std::unique_ptr<float[]>> chunks_;
+    std::vector<std::uint16_t> bits_;
+    std::vector<float> values_;
+    std::unique_ptr<Forest> forest_;
+    int size_ = 0;
+};
+
+class FlannSearch : public FeatureSearch {
+public:
+    explicit FlannSearch(FlannIndex const& index) : index_(index) {}
+    Match match(Window const& window) override { return index_.match(window, row_); }
+
+private:
+    FlannIndex const& index_;
+    std::vector<float> row_;
+};
+
+std::unique_ptr<FeatureSearch> FlannIndex::search() const { return std::make_unique<FlannSearch>(*this); }
+
+} // namespace
+
+std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const& config, int trees, int checks) {
+    assert(trees >= 1 && checks >= 1);
+    return std::make_unique<FlannIndex>(config, trees, checks);
+}
 
 } // namespace lore
