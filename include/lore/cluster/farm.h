@@ -1,0 +1,69 @@
+#pragma once
+
+#include <lore/cluster/session.h>
+#include <lore/core/error.h>
+#include <lore/evaluation/evaluator.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// How a rank evaluates: a batch at a time, a pure function (evaluate_batch with a context bound to it).
+using BatchEvaluation = std::function<std::vector<Evaluation>(std::span<Genome const* const>)>;
+
+/// An evaluation that threw, on whatever rank.
+class EvaluationFailure : public Error {
+public:
+    EvaluationFailure(int index, int rank, Genome genome, std::string reason);
+    int index() const { return index_; }         ///< in the request
+    int rank() const { return rank_; }
+    Genome const& genome() const { return genome_; }
+    std::string const& reason() const { return reason_; }
+
+private:
+    int index_, rank_;
+    Genome genome_;
+    std::string reason_;
+};
+
+/// Where a rank's time went [s].
+struct RankTimes {
+    double evaluation = 0, distances = 0;
+    double waiting = 0;   ///< with nothing to do but poll; of rank 0 while a request was under way
+};
+
+/// The ranks of a communicator as one Evaluator, on rank 0. The others are in serve().
+///
+/// A request is cut into units of about the lane width, the largest networks first. Every worker holds one more unit than
+/// it works on; rank 0 evaluates too, and polls between units. Results come back in the order of the request whoever
+/// made them, so that any number of ranks gives what one gives.
+class Farm : public Evaluator {
+public:
+    Farm(Communicator, BatchEvaluation);
+    /// Stops the workers, unless broken().
+    ~Farm() override;
+
+    /// Throws EvaluationFailure.
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>) override;
+    /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors' way.
+    void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
+
+    /// A failure has been thrown while other ranks were at work: the program must end by Session::abort.
+    bool broken() const;
+    /// Sends the workers home; returns what each rank, in order, spent its time on. No request may follow.
+    std::vector<RankTimes> stop();
+
+private:
+    struct Job;
+    struct State;
+    void distribute(Job const&);
+    std::unique_ptr<State> state_;
+};
+
+/// Works for the Farm on rank 0 until it stops.
+void serve(Communicator const&, BatchEvaluation const&);
+
+} // namespace lore

@@ -1,0 +1,81 @@
+#include "post.h"
+
+#include <lore/core/error.h>
+
+#include <cstring>
+
+#include <sched.h>
+
+namespace lore {
+
+namespace {
+
+constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
+constexpr int polls_before_yielding = 2000;          ///< about 0.2 ms
+
+struct MessageHeader {
+    std::uint32_t mark;
+    std::int32_t kind;
+    std::int64_t unit;
+    std::uint64_t length;
+};
+
+} // namespace
+
+Post::~Post() {
+    // After a failure some may never be taken; MPI_Abort follows then.
+    for (Outgoing& sent : outgoing_) MPI_Request_free(&sent.request);
+}
+
+void Post::forget_sent() {
+    for (auto sent = outgoing_.begin(); sent != outgoing_.end();) {
+        int gone = 0;
+        MPI_Test(&sent->request, &gone, MPI_STATUS_IGNORE);
+        sent = gone ? outgoing_.erase(sent) : std::next(sent);
+    }
+}
+
+void Post::send(int to, MessageKind kind, int unit, std::span<std::byte const> payload) {
+    forget_sent();
+    Outgoing& message = outgoing_.emplace_back();
+    MessageHeader const header{message_mark, static_cast<std::int32_t>(kind), unit, payload.size()};
+    message.bytes.resize(sizeof header + payload.size());
+    std::memcpy(message.bytes.data(), &header, sizeof header);
+    if (!payload.empty()) std::memcpy(message.bytes.data() + sizeof header, payload.data(), payload.size());
+    MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, static_cast<int>(kind), comm_, &message.request);
+}
+
+std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
+    forget_sent();
+    for (MessageKind const kind : kinds) {
+        int there = 0;
+        MPI_Message matched;
+        MPI_Status status;
+        MPI_Improbe(MPI_ANY_SOURCE, static_cast<int>(kind), comm_, &there, &matched, &status);
+        if (!there) continue;
+        int length = 0;
+        MPI_Get_count(&status, MPI_BYTE, &length);
+        Bytes bytes(static_cast<std::size_t>(length));
+        MPI_Mrecv(bytes.data(), length, MPI_BYTE, &matched, &status);
+        MessageHeader header{};
+        if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
+        if (header.mark != message_mark || header.kind != static_cast<std::int32_t>(kind) || header.length != bytes.size() - sizeof header)
+            throw Error("a message between ranks is damaged", "its header does not fit", "Check that all ranks run the same build.");
+        bytes.erase(bytes.begin(), bytes.begin() + sizeof header);
+        return Message{kind, status.MPI_SOURCE, static_cast<int>(header.unit), std::move(bytes)};
+    }
+    return std::nullopt;
+}
+
+Message Post::await(std::span<MessageKind const> kinds) {
+    for (int polls = 0;; ++polls) {
+        if (auto message = receive(kinds)) return *std::move(message);
+        if (polls > polls_before_yielding) ::sched_yield();
+    }
+}
+
+void Post::flush() {
+    while (!outgoing_.empty()) forget_sent();
+}
+
+} // namespace lore

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "handle.h"
+
+#include <lore/archive/container.h>
+
+#include <cstdint>
+#include <list>
+#include <optional>
+
+namespace lore {
+
+/// What a message is; also its MPI tag, so that a receiver asks for what it can take and nothing else.
+enum class MessageKind : int { evaluate = 1, evaluated, rows, distances, failure, stop, times };
+
+struct Message {
+    MessageKind kind;
+    int sender = 0;
+    int unit = 0;   ///< which part of the request it belongs to
+    Bytes payload;
+};
+
+/// Sends and receives Lore's byte messages: a small header (magic, kind, unit, length), then the payload, in one MPI
+/// message.
+class Post {
+public:
+    explicit Post(MPI_Comm comm) : comm_(comm) {}
+    Post(Post const&) = delete;
+    Post& operator=(Post const&) = delete;
+    ~Post();
+
+    /// Returns at once; the bytes are kept until they have gone.
+    void send(int to, MessageKind, int unit, std::span<std::byte const> payload);
+    /// A message of one of these kinds, from anybody, if one is there. Throws Error if it is not one of Lore's.
+    std::optional<Message> receive(std::span<MessageKind const>);
+    /// Waits for one, giving the processor to others when it takes long.
+    Message await(std::span<MessageKind const>);
+    /// Until everything sent has gone.
+    void flush();
+
+private:
+    void forget_sent();
+
+    struct Outgoing {
+        Bytes bytes;
+        MPI_Request request;
+    };
+    MPI_Comm comm_;
+    std::list<Outgoing> outgoing_;
+};
+
+} // namespace lore
