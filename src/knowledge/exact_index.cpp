@@ -5,10 +5,10 @@
 #include <lore/knowledge/index.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 // Three bounds let the exact index compute few distances. All follow from the configuration and the channels' kinds.
 //
@@ -17,8 +17,9 @@
 //    threshold (3 for the paper's).
 // 2. Cut the bits into D + 1 blocks: two windows that differ in at most D bits agree in at least one block. A hash
 //    table per block finds all who agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to block
-//    i mod (D + 1), because blocks of whole channels, which change seldom, would agree far too often. Blocks of a few
-//    bits select nothing; then one chain holds all features.
+//    i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks of
+//    whole channels, which change seldom, or of neighbouring steps. Blocks of a few bits select nothing; then one
+//    bucket holds all features.
 // 3. The sum of squares over n steps is at least n times the square of the means' difference. Sums of each channel over
 //    each half, scaled and rounded to integers, bound the continuous part from below.
 //
@@ -56,9 +57,7 @@ exact::Shape shape_of(KnowledgeConfig const& config) {
     shape.most_differing = most_differing_bits(config);
     shape.tables = bits / (shape.most_differing + 1) >= fewest_block_bits ? shape.most_differing + 1 : 1;
     shape.squared_threshold = config.squared_threshold();
-    shape.next_offset = shape.words * 8;
-    shape.summary_offset = shape.next_offset + shape.tables * 4;
-    shape.record_lines = (shape.summary_offset + exact::summary_size * 2 + 63) / 64;
+    shape.entry_size = shape.words + 1;
     return shape;
 }
 
@@ -75,7 +74,7 @@ std::vector<std::uint64_t> masks_of(exact::Shape const& shape) {
 std::vector<std::int32_t> limits_of(exact::Shape const& shape) {
     double const relative_error = (continuous_count * shape.window_length / 16.0 + 10) * 0x1p-23;
     double const rounding = 0.5 + shape.first_half * 0x1p-10;   // of one number of a summary, sum and quantisation
-    double const slack = 2 * rounding * std::sqrt(static_cast<double>(exact::summary_size));
+    double const slack = 2 * rounding * std::sqrt(static_cast<double>(exact::summary_numbers));
     std::vector<std::int32_t> limits;
     for (int differing = 0; differing <= shape.most_differing; ++differing) {
         double const left = std::max(0.0, static_cast<double>(shape.squared_threshold) * (1 + relative_error) - differing);
@@ -95,18 +94,12 @@ exact::Kernel kernel_of(Isa isa) {
     return exact::isa_baseline::kernel();
 }
 
-/// Memory for a query.
+/// A query and its memory.
 struct QueryBuffer {
-    explicit QueryBuffer(exact::Shape const& shape)
-        : words(static_cast<std::size_t>(shape.words)), values(static_cast<std::size_t>(shape.value_stride)) {}
+    explicit QueryBuffer(exact::Shape const& shape) : words(static_cast<std::size_t>(shape.words)) { query.words = words.data(); }
+    QueryBuffer(QueryBuffer const&) = delete;
     std::vector<std::uint64_t> words;
-    std::vector<float> values;
     Query query{};
-    Query& fresh() {
-        query.words = words.data();
-        query.values = values.data();
-        return query;
-    }
 };
 
 class ExactIndex : public FeatureIndex {
@@ -114,7 +107,7 @@ public:
     explicit ExactIndex(KnowledgeConfig const& config)
         : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())),
           buffer_(shape_) {
-        rehash();
+        double_slots();
     }
 
     void add(Window const& window) override;
@@ -129,25 +122,29 @@ public:
     exact::Kernel const& kernel() const { return kernel_; }
     std::span<double const> worth() const { return worth_; }
     View view() const {
-        return {shape_, masks_.data(), heads_.data(), head_bits_, reinterpret_cast<std::byte const*>(records_.data()),
+        return {shape_, masks_.data(), buckets_.data(), slot_bits_, entries_.data(), summaries_.data(),
                 reinterpret_cast<float const*>(values_.data()), limits_.data()};
     }
 
 private:
-    std::byte* record(int feature) {
-        return reinterpret_cast<std::byte*>(records_.data() + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape_.record_lines));
+    /// The bucket of one table that a pattern belongs to.
+    exact::Bucket& bucket_of(int table, std::uint64_t const* words) {
+        std::uint64_t const slot = exact::hash_slot(words, masks_.data() + table * shape_.words, shape_.words, slot_bits_);
+        return buckets_[(static_cast<std::size_t>(table) << slot_bits_) + slot];
     }
-    void link(int feature);
-    void rehash();
+    void insert(int table, std::uint64_t const* words, int feature);
+    void double_slots();
 
     exact::Shape shape_;
     std::vector<std::uint64_t> masks_;
     std::vector<std::int32_t> limits_;
     exact::Kernel kernel_;
     QueryBuffer buffer_;
-    int head_bits_ = 7;
-    std::vector<std::int32_t> heads_;
-    std::vector<CacheLine> records_;
+    int slot_bits_ = 7;                        ///< always at least as many slots as features
+    std::vector<exact::Bucket> buckets_;
+    std::vector<std::uint64_t> entries_;
+    std::vector<std::uint64_t> patterns_;      ///< [feature][word]
+    std::vector<std::int16_t> summaries_;
     std::vector<CacheLine> values_;
     std::vector<double> worth_;
     int size_ = 0;
@@ -155,35 +152,43 @@ private:
 
 void ExactIndex::add(Window const& window) {
     assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && worth_.empty());
-    Query& query = buffer_.fresh();
+    Query& query = buffer_.query;
     kernel_.prepare(shape_, window.bits.data(), window.values.data(), query);
+    patterns_.insert(patterns_.end(), query.words, query.words + shape_.words);
+    summaries_.insert(summaries_.end(), query.summary, query.summary + exact::summary_size);
+    std::size_t const lines = static_cast<std::size_t>(shape_.value_stride) * sizeof(float) / sizeof(CacheLine);
+    values_.resize(values_.size() + lines);
+    std::memcpy(values_.data() + values_.size() - lines, window.values.data(), window.values.size_bytes());
     int const feature = size_++;
-    records_.resize(records_.size() + static_cast<std::size_t>(shape_.record_lines));
-    std::byte* const start = record(feature);
-    std::memcpy(start, query.words, static_cast<std::size_t>(shape_.words) * sizeof *query.words);
-    std::memcpy(start + shape_.summary_offset, query.summary, sizeof query.summary);
-    std::size_t const bytes = static_cast<std::size_t>(shape_.value_stride) * sizeof(float);
-    values_.resize(values_.size() + bytes / sizeof(CacheLine));
-    std::memcpy(values_.data() + values_.size() - bytes / sizeof(CacheLine), query.values, bytes);
-    if (static_cast<std::size_t>(size_) > std::size_t{1} << head_bits_) rehash();
-    else link(feature);
+    if (static_cast<std::size_t>(size_) > std::size_t{1} << slot_bits_) double_slots();
+    else for (int table = 0; table < shape_.tables; ++table) insert(table, query.words, feature);
 }
 
-void ExactIndex::link(int feature) {
-    std::byte* const start = record(feature);
-    for (int table = 0; table < shape_.tables; ++table) {
-        std::uint64_t const slot = exact::hash_slot(reinterpret_cast<std::uint64_t const*>(start), masks_.data() + table * shape_.words, shape_.words, head_bits_);
-        std::int32_t& head = heads_[(static_cast<std::size_t>(table) << head_bits_) + slot];
-        std::memcpy(start + shape_.next_offset + 4 * table, &head, sizeof head);
-        head = feature;
+/// A bucket has room for as many entries as the next power of two; where that is full, it moves to the end of entries_.
+/// The places left behind are as many as those in use at most, until double_slots() clears them away.
+void ExactIndex::insert(int table, std::uint64_t const* words, int feature) {
+    exact::Bucket& bucket = bucket_of(table, words);
+    auto const entry_size = static_cast<std::size_t>(shape_.entry_size);
+    if (std::has_single_bit(bucket.count) || bucket.count == 0) {
+        std::size_t const room = std::max<std::size_t>(1, std::size_t{bucket.count} * 2);
+        std::size_t const start = entries_.size() / entry_size;
+        entries_.resize(entries_.size() + room * entry_size);
+        std::copy_n(entries_.data() + bucket.start * entry_size, bucket.count * entry_size, entries_.data() + start * entry_size);
+        bucket.start = static_cast<std::uint32_t>(start);
     }
+    std::uint64_t* const entry = entries_.data() + (bucket.start + bucket.count) * entry_size;
+    std::copy_n(words, shape_.words, entry);
+    entry[shape_.words] = static_cast<std::uint64_t>(feature);
+    ++bucket.count;
 }
 
-/// Doubles the tables, so that there are always more slots than features, and links every feature anew.
-void ExactIndex::rehash() {
-    ++head_bits_;
-    heads_.assign(static_cast<std::size_t>(shape_.tables) << head_bits_, -1);
-    for (int feature = 0; feature < size_; ++feature) link(feature);
+void ExactIndex::double_slots() {
+    ++slot_bits_;
+    buckets_.assign(static_cast<std::size_t>(shape_.tables) << slot_bits_, {0, 0});
+    entries_.clear();
+    for (int table = 0; table < shape_.tables; ++table)
+        for (int feature = 0; feature < size_; ++feature)
+            insert(table, patterns_.data() + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape_.words), feature);
 }
 
 class ExactSearch : public FeatureSearch {
@@ -204,8 +209,9 @@ public:
 private:
     int collect(Window const& window) {
         assert(window.bits.size() == static_cast<std::size_t>(index_.shape().window_length));
-        if (candidates_.size() < static_cast<std::size_t>(index_.size())) candidates_.resize(static_cast<std::size_t>(index_.size()) * 2);
-        index_.kernel().prepare(index_.shape(), window.bits.data(), window.values.data(), buffer_.fresh());
+        std::size_t const most = static_cast<std::size_t>(index_.size()) * static_cast<std::size_t>(index_.shape().tables) + 1;
+        if (candidates_.size() < most) candidates_.resize(most * 2);
+        index_.kernel().prepare(index_.shape(), window.bits.data(), window.values.data(), buffer_.query);
         return index_.kernel().collect(index_.view(), buffer_.query, candidates_.data());
     }
     Match nearest(View const& view, int count) const {

@@ -9,8 +9,9 @@
 // pointers only: see core/lanes.h for why.
 namespace lore::exact {
 
-/// One number of a summary; a window's summary are the sums of each continuous channel over each half of its steps.
-inline constexpr int summary_size = 2 * continuous_count;
+/// A window's summary: the sums of each continuous channel over each half of its steps, quantised, then zeros.
+inline constexpr int summary_numbers = 2 * continuous_count;
+inline constexpr int summary_size    = 16;
 
 /// Largest quantised number of a summary: the squares of 12 differences still fit in 32 bits.
 inline constexpr int summary_scale = 8191;
@@ -21,38 +22,45 @@ struct Shape {
     int words;            ///< 64-bit words that hold the binary channels of a window
     int first_half;       ///< steps of the first half
     float scales[2];      ///< of the sums of each half
-    int value_stride;     ///< floats a window, a multiple of 16
+    int value_stride;     ///< floats between two features' values: whole cache lines
     int tables;
     int most_differing;   ///< bits
     float squared_threshold;
-    int record_lines;     ///< cache lines a record
-    int next_offset;      ///< bytes from a record's start to its chain links
-    int summary_offset;   ///< and to its summary
+    int entry_size;       ///< 64-bit words of an entry of a bucket
 };
 
-/// A set of features as the kernel reads it. A feature's record holds its bits, per table the next feature of its
-/// chain (-1: none), and its summary.
+/// The features whose hashed bits fall into one slot of a table: entries start .. start + count - 1. An entry is the
+/// feature's whole pattern, then its number, so that a bucket is read in one sweep.
+struct Bucket {
+    std::uint32_t start;
+    std::uint32_t count;
+};
+
+/// A set of features as the kernel reads it.
 struct View {
     Shape shape;
     std::uint64_t const* masks;    ///< [table][word]: the bits that a table hashes
-    std::int32_t const* heads;     ///< [table][2^head_bits]
-    int head_bits;
-    std::byte const* records;
-    float const* values;           ///< [feature][value_stride], padded with zeros
+    Bucket const* buckets;         ///< [table][2^slot_bits]
+    int slot_bits;
+    std::uint64_t const* entries;  ///< [entry][entry_size]
+    std::int16_t const* summaries; ///< [feature][summary_size]
+    float const* values;           ///< [feature][value_stride]
     std::int32_t const* limits;    ///< [differing bits]: largest summary distance of a match
 };
 
-/// A window made ready to be asked for; the arrays belong to the caller.
+/// A window made ready to be asked for.
 struct Query {
-    std::uint64_t* words;
-    float* values;                 ///< [value_stride]
-    std::int16_t summary[summary_size];
+    std::uint64_t* words;          ///< memory of the caller
+    float const* values;           ///< the window's own
+    alignas(32) std::int16_t summary[summary_size];
 };
 
 /// A feature that may lie within the threshold.
 struct Candidate {
     std::int32_t feature;
     std::int32_t differing;        ///< bits
+    std::uint32_t entry;           ///< where it was met, and in which table
+    std::int32_t table;
 };
 
 struct Nearest {
@@ -64,7 +72,7 @@ struct Kernel {
     /// Fills `query` from a window's arrays.
     void (*prepare)(Shape const&, std::uint16_t const* bits, float const* values, Query& query);
     /// Writes every feature that the bounds do not rule out, each once, and returns how many. `candidates` has room for
-    /// all features.
+    /// all features of all tables and one more.
     int (*collect)(View const&, Query const&, Candidate* candidates);
     /// The nearest of the candidates if it is within the threshold; among equals the lowest number.
     Nearest (*nearest)(View const&, Query const&, Candidate const* candidates, int count);
