@@ -1,0 +1,181 @@
+#include <lore/archive/trace_file.h>
+
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+namespace lore {
+
+namespace {
+
+/// The whole file, uncompressed; zlib hands a file that is not gzip through as it is.
+std::string read_text(std::string const& path) {
+    struct Close { void operator()(gzFile file) const { gzclose_r(file); } };
+    std::unique_ptr<gzFile_s, Close> const file{std::filesystem::is_regular_file(path) ? gzopen(path.c_str(), "rb") : nullptr};
+    if (!file) throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
+    std::string text;
+    std::array<char, 1 << 16> block;
+    int got = 0;
+    while ((got = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0) text.append(block.data(), static_cast<std::size_t>(got));
+    int status = Z_OK;
+    char const* const reason = gzerror(file.get(), &status);
+    if (got < 0 || status != Z_OK)
+        throw Error(fmt::format("cannot read {}", path), status == Z_BUF_ERROR ? "the compressed file is cut" : reason, "Fetch it again.");
+    return text;
+}
+
+/// A CSV text, line by line and field by field; everything wrong with it becomes an Error that names the line.
+class CsvReader {
+public:
+    CsvReader(CsvReader const&) = delete;   // its views look into its own text
+    CsvReader& operator=(CsvReader const&) = delete;
+    explicit CsvReader(std::string const& path) : path_(path), text_(read_text(path)), rest_(text_) {
+        if (!next_line()) fail_file("it is empty");
+        names_ = fields_;
+    }
+
+    /// Index of the column; throws if it is missing or there twice.
+    std::size_t column(std::string_view name) const {
+        auto const found = std::find(names_.begin(), names_.end(), name);
+        if (found == names_.end()) {
+            std::string const meant = nearest_word(name, names_.data(), names_.size());
+            fail_file(fmt::format("the header has no column '{}'{}", name, meant.empty() ? "" : fmt::format(", only '{}'", meant)));
+        }
+        if (std::find(found + 1, names_.end(), name) != names_.end()) fail_file(fmt::format("two columns are called '{}'", name));
+        return static_cast<std::size_t>(found - names_.begin());
+    }
+
+    /// Goes on to the next row; false at the end of the file. Empty lines do not count.
+    bool next_row() {
+        do {
+            if (!next_line()) return false;
+        } while (fields_.size() == 1 && fields_[0].empty());
+        if (fields_.size() != names_.size())
+            fail("", fmt::format("{} fields where the header has {}", fields_.size(), names_.size()));
+        return true;
+    }
+
+    template <class Number>
+    Number number(std::size_t column, Number least, Number most) const {
+        std::string_view const field = fields_[column];
+        Number value{};
+        auto const [end, failed] = std::from_chars(field.data(), field.data() + field.size(), value);
+        if (failed != std::errc{} || end != field.data() + field.size()) fail(names_[column], fmt::format("'{}' is no {}", field.substr(0, 30), kind<Number>()));
+        if (!(value >= least && value <= most)) fail(names_[column], fmt::format("{} is outside {} .. {}", field.substr(0, 30), least, most));
+        return value;
+    }
+
+    [[noreturn]] void fail_file(std::string_view reason) const {
+        throw Error(fmt::format("cannot use {}", path_), reason, "Compare with the columns in docs/formats.md.");
+    }
+
+private:
+    template <class Number>
+    static constexpr std::string_view kind() { return std::is_integral_v<Number> ? "whole number" : "number"; }
+
+    [[noreturn]] void fail(std::string_view column, std::string_view reason) const {
+        throw Error(fmt::format("cannot use {}, line {}{}{}", path_, line_, column.empty() ? "" : ", column ", column), reason, "Mend the file.");
+    }
+
+    bool next_line() {
+        if (rest_.empty()) return false;
+        ++line_;
+        std::size_t const end = std::min(rest_.find('\n'), rest_.size());
+        std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        fields_.clear();
+        while (true) {
+            std::size_t const comma = std::min(line.find(','), line.size());
+            std::string_view field = line.substr(0, comma);
+            while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+            while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
+            fields_.push_back(field);
+            if (comma == line.size()) break;
+            line.remove_prefix(comma + 1);
+        }
+        return true;
+    }
+
+    std::string path_, text_;
+    std::string_view rest_;
+    std::vector<std::string_view> names_, fields_;
+    int line_ = 0;
+};
+
+constexpr float whole_turn = 6.2831855f;
+constexpr float largest_sensor = 1e6f;   // other simulators' range sensors leave [0, 1] by a little
+constexpr int largest_count = 1 << 30;
+
+} // namespace
+
+std::string trace_csv(std::vector<StepRecord> const& rows) {
+    std::string text = "step,x,y,theta";
+    for (int i = 0; i < sensor_count; ++i) text += fmt::format(",in{}", i);
+    text += ",a0,a1,a2,carrying,door_open,balls_mask,collected,switch_on,switch_timer,x_next,y_next,theta_next\n";
+    auto const out = std::back_inserter(text);
+    for (StepRecord const& row : rows) {
+        fmt::format_to(out, "{},{},{},{}", row.step, row.pose.x, row.pose.y, row.pose.theta);
+        for (float const sensor : row.sensors) fmt::format_to(out, ",{}", sensor);
+        for (float const effector : row.effectors) fmt::format_to(out, ",{}", effector);
+        fmt::format_to(out, ",{:d},{:d},{},{},{:d},{},{},{},{}\n", row.carrying, row.door_open, row.balls, row.collected, row.switch_lit,
+                       row.switch_timer, row.next.x, row.next.y, row.next.theta);
+    }
+    return text;
+}
+
+std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& arena) {
+    CsvReader csv{path};
+    std::size_t const step = csv.column("step"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
+    std::size_t const carrying = csv.column("carrying"), door_open = csv.column("door_open"), balls = csv.column("balls_mask"),
+                      collected = csv.column("collected"), switch_on = csv.column("switch_on"), switch_timer = csv.column("switch_timer");
+    std::size_t const x_next = csv.column("x_next"), y_next = csv.column("y_next"), theta_next = csv.column("theta_next");
+    std::array<std::size_t, sensor_count> sensors;
+    for (int i = 0; i < sensor_count; ++i) sensors[static_cast<std::size_t>(i)] = csv.column(fmt::format("in{}", i));
+    std::array<std::size_t, effector_count> const effectors{csv.column("a0"), csv.column("a1"), csv.column("a2")};
+    int const all_balls = (1 << arena.task.ball_positions.size()) - 1;
+
+    std::vector<StepRecord> rows;
+    while (csv.next_row()) {
+        StepRecord row;
+        row.step = csv.number(step, 0, largest_count);
+        row.pose = {csv.number(x, 0.0f, arena.width), csv.number(y, 0.0f, arena.height), csv.number(theta, -whole_turn, whole_turn)};
+        for (std::size_t i = 0; i < sensors.size(); ++i) row.sensors[i] = csv.number(sensors[i], -largest_sensor, largest_sensor);
+        for (std::size_t i = 0; i < effectors.size(); ++i) row.effectors[i] = csv.number(effectors[i], 0.0f, 1.0f);
+        row.carrying = csv.number(carrying, 0, 1) != 0;
+        row.door_open = csv.number(door_open, 0, 1) != 0;
+        row.balls = static_cast<std::uint16_t>(csv.number(balls, 0, all_balls));
+        row.collected = csv.number(collected, 0, largest_count);
+        row.switch_lit = csv.number(switch_on, 0, 1) != 0;
+        row.switch_timer = csv.number(switch_timer, 0, int{std::numeric_limits<std::int16_t>::max()});
+        row.next = {csv.number(x_next, 0.0f, arena.width), csv.number(y_next, 0.0f, arena.height), csv.number(theta_next, -whole_turn, whole_turn)};
+        rows.push_back(row);
+    }
+    if (rows.empty()) csv.fail_file("it has a header but no row");
+    return rows;
+}
+
+std::vector<Effectors> read_actions_csv(std::string const& path) {
+    CsvReader csv{path};
+    std::array<std::size_t, effector_count> const columns{csv.column("a0"), csv.column("a1"), csv.column("a2")};
+    std::vector<Effectors> actions;
+    while (csv.next_row()) {
+        Effectors& action = actions.emplace_back();
+        for (std::size_t i = 0; i < columns.size(); ++i) action[i] = csv.number(columns[i], 0.0f, 1.0f);
+    }
+    if (actions.empty()) csv.fail_file("it has a header but no row");
+    return actions;
+}
+
+} // namespace lore

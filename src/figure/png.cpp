@@ -1,0 +1,65 @@
+#include <lore/figure/svg.h>
+
+#include <lore/core/error.h>
+
+#include <cmath>
+#include <memory>
+
+#include <cairo.h>
+#include <fmt/format.h>
+#include <librsvg/rsvg.h>
+
+namespace lore {
+
+namespace {
+
+constexpr double largest_edge = 16384;   // [pixels]
+
+struct Release {
+    void operator()(RsvgHandle* handle) const { g_object_unref(handle); }
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+
+[[noreturn]] void fail(std::string_view reason) {
+    throw Error("cannot render a picture as PNG", reason, "The SVG file beside it holds the same picture.");
+}
+
+std::string message_of(GError* error) {
+    std::string const message = error != nullptr ? error->message : "librsvg gives no reason";
+    if (error != nullptr) g_error_free(error);
+    return message;
+}
+
+cairo_status_t append(void* out, unsigned char const* data, unsigned length) {
+    static_cast<std::string*>(out)->append(reinterpret_cast<char const*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+} // namespace
+
+std::string render_png(std::string_view svg, double scale) {
+    GError* error = nullptr;
+    std::unique_ptr<RsvgHandle, Release> const handle{
+        rsvg_handle_new_from_data(reinterpret_cast<guint8 const*>(svg.data()), svg.size(), &error)};
+    if (!handle) fail(message_of(error));
+    double width = 0, height = 0;
+    if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height)) fail("it has no size in pixels");
+    width = std::ceil(width * scale);
+    height = std::ceil(height * scale);
+    if (!(width >= 1 && height >= 1 && width <= largest_edge && height <= largest_edge)) fail(fmt::format("{} x {} pixels", width, height));
+
+    std::unique_ptr<cairo_surface_t, Release> const surface{
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height))};
+    std::unique_ptr<cairo_t, Release> const context{cairo_create(surface.get())};
+    cairo_set_source_rgb(context.get(), 1, 1, 1);
+    cairo_paint(context.get());
+    RsvgRectangle const viewport{0, 0, width, height};
+    if (!rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error)) fail(message_of(error));
+    std::string png;
+    if (cairo_status_t const status = cairo_surface_write_to_png_stream(surface.get(), append, &png); status != CAIRO_STATUS_SUCCESS)
+        fail(cairo_status_to_string(status));
+    return png;
+}
+
+} // namespace lore
