@@ -1,18 +1,10 @@
 #include <lore/episode/episode.h>
 
-#include <cmath>
+#include "stillness.h"
 
 namespace lore {
 
 namespace {
-
-/// A step counts as still if neither coordinate nor the heading changed by more than this (the predecessor's value).
-constexpr float still_change = 1e-4f;   // [u], [rad]
-
-bool is_still(Pose const& before, Pose const& after) {
-    return std::abs(after.x - before.x) <= still_change && std::abs(after.y - before.y) <= still_change
-        && std::abs(after.theta - before.theta) <= still_change;
-}
 
 /// The loop itself; `observe` is inlined, so that recording costs no call.
 template <class Observe>

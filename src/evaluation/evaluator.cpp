@@ -12,12 +12,6 @@ Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& geno
     return evaluation;
 }
 
-std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::span<Genome const* const> genomes) {
-    std::vector<Evaluation> evaluations;
-    for (Genome const* genome : genomes) evaluations.push_back(evaluate_plainly(context, *genome));
-    return evaluations;
-}
-
 void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix) {
     measure_rows(kind, pool, known, static_cast<int>(pool.size()), matrix);
 }

@@ -43,6 +43,7 @@ template <class F>
 using MaskOf = typename LaneTraits<F>::Mask;
 
 /// Operations on lanes that the operators lack; each means the same for a scalar and for every lane of a vector.
+/// The AVX-512 intrinsics are taken with a full mask, because g++ 12 warns of its own unmasked ones.
 namespace lanes {
 
 template <class To, class From>
@@ -77,7 +78,7 @@ LORE_INLINE V select(M const& mask, V const& a, V const& b) { return mask ? a : 
 template <class V>
 LORE_INLINE V min(V const& a, V const& b) {
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_min_ps((__m512)a, (__m512)b);
+    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);
 #endif
 #if defined(__AVX__)
     if constexpr (std::is_same_v<V, Lanes<float, 8>>) return (V)_mm256_min_ps((__m256)a, (__m256)b);
@@ -92,7 +93,7 @@ LORE_INLINE V min(V const& a, V const& b) {
 template <class V>
 LORE_INLINE V max(V const& a, V const& b) {
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_max_ps((__m512)a, (__m512)b);
+    if constexpr (std::is_same_v<V, Lanes<float, 16>>) return (V)_mm512_maskz_max_ps(0xffff, (__m512)a, (__m512)b);
 #endif
 #if defined(__AVX__)
     if constexpr (std::is_same_v<V, Lanes<float, 8>>) return (V)_mm256_max_ps((__m256)a, (__m256)b);
@@ -112,7 +113,7 @@ LORE_INLINE F sqrt(F const& x) {
     if constexpr (std::is_same_v<F, float>) return __builtin_sqrtf(x);
     else {
 #if defined(__AVX512F__)
-        if constexpr (LaneTraits<F>::width == 16) return (F)_mm512_sqrt_ps((__m512)x);
+        if constexpr (LaneTraits<F>::width == 16) return (F)_mm512_maskz_sqrt_ps(0xffff, (__m512)x);
 #endif
 #if defined(__AVX__)
         if constexpr (LaneTraits<F>::width == 8) return (F)_mm256_sqrt_ps((__m256)x);
@@ -186,7 +187,7 @@ LORE_INLINE auto gather(T const* table, I const& index) {
         constexpr int width = sizeof(I) / sizeof(std::int32_t);
         using V = Lanes<T, width>;
 #if defined(__AVX512F__)
-        if constexpr (width == 16) return (V)_mm512_i32gather_epi32((__m512i)index, table, 4);
+        if constexpr (width == 16) return (V)_mm512_mask_i32gather_epi32(__m512i{}, 0xffff, (__m512i)index, table, 4);
         else
 #endif
 #if defined(__AVX2__)

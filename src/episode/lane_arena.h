@@ -1,0 +1,23 @@
+#pragma once
+
+#include "lane_work.h"
+
+#include <lore/arena/arena.h>
+
+#include <vector>
+
+namespace lore {
+
+/// Owns what a LaneArena points to, beside the Arena itself, which must outlive it.
+class LaneArenaLayout {
+public:
+    explicit LaneArenaLayout(Arena const&);
+    LaneArena const& view() const { return view_; }
+
+private:
+    std::vector<FaceLine> vertical_, horizontal_;
+    std::vector<FaceInterval> intervals_;
+    LaneArena view_{};
+};
+
+} // namespace lore

@@ -1,0 +1,75 @@
+#include "lane_networks.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cassert>
+
+namespace lore {
+
+namespace {
+
+constexpr int most_targets = effector_count + most_hidden;
+constexpr int most_sources = sensor_count + most_hidden;
+constexpr int group_size = 4;   ///< of hidden neurons: enough sums in flight to hide the latency of an addition
+
+} // namespace
+
+void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width) {
+    hidden_count_ = 0;
+    std::array<std::bitset<most_sources>, most_targets> feeds;
+    for (Network const* network : networks) {
+        if (network == nullptr) continue;
+        hidden_count_ = std::max(hidden_count_, network->hidden_count);
+        for (int target = 0; target < network->target_count(); ++target)
+            for (int i = network->first[static_cast<std::size_t>(target)]; i < network->first[static_cast<std::size_t>(target) + 1]; ++i)
+                feeds[static_cast<std::size_t>(target)].set(network->source[static_cast<std::size_t>(i)]);
+    }
+
+    int const targets = effector_count + hidden_count_;
+    groups_.clear();
+    sources_.clear();
+    offsets_.clear();
+    std::vector<std::array<int, most_sources>> entry_of;   // [group][source]
+    int offset = 0;
+    for (int first = 0; first < targets;) {
+        int const size = first == 0 ? effector_count : std::min(group_size, targets - first);
+        // A remainder of three would look like the outputs' group: two and one.
+        int const count = first > 0 && size == effector_count ? 2 : size;
+        NeuronGroup group{count, first, static_cast<int>(sources_.size()), 0};
+        std::bitset<most_sources> any;
+        for (int k = 0; k < count; ++k) any |= feeds[static_cast<std::size_t>(first + k)];
+        entry_of.emplace_back();
+        for (int source = 0; source < most_sources; ++source) {
+            if (!any[static_cast<std::size_t>(source)]) continue;
+            entry_of.back()[static_cast<std::size_t>(source)] = offset;
+            sources_.push_back(source);
+            offsets_.push_back(offset);
+            offset += count * width;
+        }
+        group.last_entry = static_cast<int>(sources_.size());
+        groups_.push_back(group);
+        first += count;
+    }
+
+    weights_.assign(static_cast<std::size_t>(offset), 0.0f);
+    biases_.assign(static_cast<std::size_t>(targets * width), 0.0f);
+    for (std::size_t lane = 0; lane < networks.size(); ++lane) {
+        Network const* network = networks[lane];
+        if (network == nullptr) continue;
+        for (std::size_t g = 0; g < groups_.size(); ++g)
+            for (int k = 0; k < groups_[g].count; ++k) {
+                auto const target = static_cast<std::size_t>(groups_[g].first_target + k);
+                if (static_cast<int>(target) >= network->target_count()) continue;
+                biases_[target * static_cast<std::size_t>(width) + lane] = network->bias[target];
+                for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i)
+                    weights_[static_cast<std::size_t>(entry_of[g][network->source[i]] + k * width) + lane] = network->weight[i];
+            }
+    }
+}
+
+LaneNetworks LaneNetworkLayout::view() const {
+    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(), biases_.data(), hidden_count_};
+}
+
+} // namespace lore

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "lane_work.h"
+
+#include <lore/network/network.h>
+
+#include <span>
+#include <vector>
+
+namespace lore {
+
+/// Owns the networks that lie over each other in the lanes (LaneNetworks).
+class LaneNetworkLayout {
+public:
+    /// Lays the networks anew; null for an idle lane. Call after any lane has changed its network.
+    void lay(std::span<Network const* const> networks, int width);
+    LaneNetworks view() const;
+
+private:
+    std::vector<NeuronGroup> groups_;
+    std::vector<std::int32_t> sources_, offsets_;
+    std::vector<float> weights_, biases_;
+    int hidden_count_ = 0;
+};
+
+} // namespace lore

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <lore/arena/shapes.h>
+
+#include <cstdint>
+
+/// What the lane kernels read and write: plain structs of pointers and arrays, because kernels may not include the
+/// standard containers (cmake/LoreTargets.cmake, lore_kernel).
+namespace lore {
+
+inline constexpr int lane_slots = 16;   ///< lanes of the widest kernel; narrower ones use the first of them
+
+/// An interval [lo, hi] of a face line; `door`: there only while the door is shut.
+struct FaceInterval { float lo, hi; std::int32_t door; };
+
+/// Face pairs in the same two places: one distance serves all their intervals (FacePair, arena/shapes.h).
+struct FaceLine {
+    float upward, downward;
+    std::int32_t first, last;   ///< in the intervals
+};
+
+/// Geometry, robot and task as the kernel reads them.
+struct LaneArena {
+    FaceLine const* vertical;
+    FaceLine const* horizontal;
+    std::int32_t vertical_count, horizontal_count;
+    FaceInterval const* intervals;
+    Rect const* walls;
+    std::int32_t wall_count, first_door;
+    Point const* lights;
+    std::int32_t light_count;
+    std::uint32_t ball_mask, basket_mask, switch_mask;
+
+    std::int32_t const* visibility;   ///< VisibilityTable::words
+    std::int32_t columns, rows, open_offset;
+    float cells_per_u;
+
+    float radius, radius_squared, reach_squared, max_speed, inverse_wheel_distance, sensor_range, inverse_range;
+    float cos_squared_half_view;
+    std::int32_t switch_pause;
+};
+
+/// Targets of a network whose sums run side by side: one for each of `count` accumulators.
+struct NeuronGroup {
+    std::int32_t count;
+    std::int32_t first_target;          ///< 0..2 outputs, then hidden neurons
+    std::int32_t first_entry, last_entry;
+};
+
+/// The lanes' networks laid over each other. An entry is a source that feeds, in any lane, a target of the group; its
+/// weights are [target of group][lane], 0 where a lane has no such edge. That changes no sum: sources are never
+/// negative, so the product is +0, and adding +0 to a sum that started from +0 gives that sum.
+struct LaneNetworks {
+    NeuronGroup const* groups;
+    std::int32_t group_count;
+    std::int32_t const* sources;   ///< per entry: 0..11 input, 12.. hidden
+    std::int32_t const* offsets;   ///< per entry: of its weights
+    float const* weights;          ///< rows of `width` floats
+    float const* biases;           ///< [target][lane]
+    std::int32_t hidden_count;
+};
+
+/// All that changes while the lanes run, and where they record. Arrays are [lane].
+struct alignas(64) LaneWork {
+    float x[lane_slots], y[lane_slots], theta[lane_slots];
+    std::int32_t bumper_right[lane_slots], bumper_left[lane_slots];   ///< masks: 0 or -1, likewise below
+    std::int32_t carrying[lane_slots], door_open[lane_slots], switch_lit[lane_slots];
+    std::int32_t balls[lane_slots];          ///< WorldState::balls
+    std::int32_t switch_timer[lane_slots];
+
+    LaneArena arena;
+    LaneNetworks networks;
+    float* neurons;                ///< [source][lane]: 12 inputs, then hidden neurons
+    float* next_hidden;            ///< [hidden][lane]
+
+    float* values;                 ///< the chunk's buffers, see LaneChunk
+    std::uint16_t* words;
+    float* trail_x;
+    float* trail_y;
+
+    /// Called where a lane's robot picks up, releases or presses: applies the rules to the lane's world and writes back
+    /// carrying, door_open, switch_lit, balls and switch_timer. Those are as before the step's action.
+    void (*act)(LaneWork&, int lane, float collect);
+    void* owner;                   ///< for `act`
+};
+
+namespace isa_baseline { void run_steps(LaneWork&, int first, int last); }
+namespace isa_v3 { void run_steps(LaneWork&, int first, int last); }
+namespace isa_v4 { void run_steps(LaneWork&, int first, int last); }
+
+} // namespace lore

@@ -1,0 +1,234 @@
+#include <lore/episode/lanes.h>
+
+#include <lore/core/isa.h>
+
+#include "lane_arena.h"
+#include "lane_networks.h"
+#include "stillness.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <numeric>
+
+namespace lore {
+
+namespace {
+
+static_assert(lane_slots == most_lanes);
+
+using RunSteps = void (*)(LaneWork&, int first, int last);
+
+RunSteps kernel_for(Isa isa) {
+#if LORE_ISA_COUNT > 1
+    if (isa == Isa::v4) return isa_v4::run_steps;
+    if (isa == Isa::v3) return isa_v3::run_steps;
+#endif
+    assert(isa == Isa::baseline);
+    (void)isa;
+    return isa_baseline::run_steps;
+}
+
+/// Storage that starts at a cache line, as whole vectors want it.
+class AlignedFloats {
+public:
+    void resize(std::size_t count) {
+        memory_.assign(count + 16, 0.0f);
+        offset_ = (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
+    }
+    float* data() { return memory_.data() + offset_; }
+
+private:
+    std::vector<float> memory_;
+    std::size_t offset_ = 0;
+};
+
+/// The lanes and the queue of episodes that fills them.
+class LaneRun {
+public:
+    LaneRun(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer)
+        : arena_(arena), config_(config), episodes_(episodes), chunk_steps_(chunk_steps), observer_(observer),
+          width_(lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena), queue_(episodes.size()) {
+        // Networks of similar size side by side: the widest decides what all of them cost.
+        std::iota(queue_.begin(), queue_.end(), 0);
+        std::stable_sort(queue_.begin(), queue_.end(), [&](int a, int b) {
+            Network const &m = episodes_[static_cast<std::size_t>(a)], &n = episodes_[static_cast<std::size_t>(b)];
+            return m.hidden_count != n.hidden_count ? m.hidden_count > n.hidden_count : m.edge_count() > n.edge_count();
+        });
+        auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
+        values_.resize(rows * continuous_count * columns);
+        trail_x_.resize(rows * columns);
+        trail_y_.resize(rows * columns);
+        words_.resize(rows * columns + 32);
+        neurons_.resize((sensor_count + most_hidden) * columns);
+        next_hidden_.resize(most_hidden * columns);
+        work_.arena = arena_layout_.view();
+        work_.neurons = neurons_.data();
+        work_.next_hidden = next_hidden_.data();
+        work_.values = values_.data();
+        work_.words = words_.data();
+        work_.trail_x = trail_x_.data();
+        work_.trail_y = trail_y_.data();
+        work_.owner = this;
+        work_.act = [](LaneWork& work, int lane, float collect) { static_cast<LaneRun*>(work.owner)->act_plainly(lane, collect); };
+    }
+
+    void run() {
+        for (int lane = 0; lane < width_; ++lane) start_next(lane);
+        while (running_ > 0) {
+            if (networks_changed_) lay_networks();
+            run_chunk();
+        }
+    }
+
+private:
+    struct Lane {
+        int episode = -1;      ///< -1: idle
+        int steps_left = 0;
+        int still_steps = 0;
+        int valid = 0;         ///< rows of this chunk
+        WorldState world;
+    };
+
+    void start_next(int lane) {
+        Lane& now = lanes_[static_cast<std::size_t>(lane)];
+        now = Lane{};
+        networks_changed_ = true;
+        RobotState const robot = start_robot(arena_);
+        work_.x[lane] = robot.pose.x;
+        work_.y[lane] = robot.pose.y;
+        work_.theta[lane] = robot.pose.theta;
+        work_.bumper_right[lane] = work_.bumper_left[lane] = 0;
+        for (int h = 0; h < most_hidden; ++h) hidden(lane, h) = 0.0f;
+        now.world = start_world(arena_);
+        write_world(lane);
+        if (next_ == queue_.size()) return;
+        now.episode = queue_[next_++];
+        now.steps_left = config_.steps;
+        ++running_;
+        observer_.begin(lane, now.episode);
+    }
+
+    float& hidden(int lane, int neuron) { return work_.neurons[(sensor_count + neuron) * width_ + lane]; }
+
+    void lay_networks() {
+        std::array<Network const*, most_lanes> networks{};
+        for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
+            if (lanes_[lane].episode >= 0) networks[lane] = &episodes_[static_cast<std::size_t>(lanes_[lane].episode)];
+        layout_.lay({networks.data(), static_cast<std::size_t>(width_)}, width_);
+        work_.networks = layout_.view();
+        networks_changed_ = false;
+    }
+
+    void write_world(int lane) {
+        WorldState const& world = lanes_[static_cast<std::size_t>(lane)].world;
+        work_.carrying[lane] = world.carrying() ? -1 : 0;
+        work_.door_open[lane] = world.door_open ? -1 : 0;
+        work_.switch_lit[lane] = world.switch_lit ? -1 : 0;
+        work_.balls[lane] = world.balls;
+        work_.switch_timer[lane] = world.switch_timer;
+    }
+
+    /// Brings the lane's world up to what the kernel keeps of it in lanes.
+    void read_world(int lane) {
+        WorldState& world = lanes_[static_cast<std::size_t>(lane)].world;
+        world.switch_lit = work_.switch_lit[lane] != 0;
+        world.switch_timer = static_cast<std::int16_t>(work_.switch_timer[lane]);
+    }
+
+    void act_plainly(int lane, float collect) {
+        read_world(lane);
+        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, {0.0f, 0.0f, collect}, lanes_[static_cast<std::size_t>(lane)].world);
+        write_world(lane);
+    }
+
+    void run_chunk() {
+        for (Lane& lane : lanes_) lane.valid = std::min(lane.steps_left, lane.episode < 0 ? 0 : chunk_steps_);
+        std::array<bool, most_lanes> ended{};
+        std::array<WorldState, most_lanes> final_worlds;
+        for (int row = 0; row < chunk_steps_;) {
+            int to = row < chunk_steps_ - 1 ? chunk_steps_ - 1 : chunk_steps_;   // the last step alone, see below
+            for (Lane const& lane : lanes_)
+                if (lane.valid > row) to = std::min(to, lane.valid);
+            if (config_.stop_when_still > 0) to = row + 1;
+            bool const judge_rest = to == chunk_steps_ && config_.stop_when_still == 0;
+            before_ = work_;
+            if (judge_rest) hidden_before_.assign(&hidden(0, 0), &hidden(0, work_.networks.hidden_count));
+            run_steps_(work_, row, to);
+            row = to;
+            for (int l = 0; l < width_; ++l) {
+                Lane& lane = lanes_[static_cast<std::size_t>(l)];
+                if (config_.stop_when_still > 0 && lane.valid >= row && stood_still(l)) lane.valid = lane.steps_left = row;
+                if (lane.episode < 0 || ended[static_cast<std::size_t>(l)] || lane.valid != row || lane.steps_left != row) continue;
+                ended[static_cast<std::size_t>(l)] = true;
+                read_world(l);
+                final_worlds[static_cast<std::size_t>(l)] = lane.world;
+            }
+        }
+
+        std::array<int, most_lanes> valid{};
+        for (std::size_t l = 0; l < lanes_.size(); ++l) valid[l] = lanes_[l].valid;
+        observer_.see({width_, chunk_steps_, work_.values, work_.words, work_.trail_x, work_.trail_y},
+                      {valid.data(), static_cast<std::size_t>(width_)});
+        for (int l = 0; l < width_; ++l) {
+            Lane& lane = lanes_[static_cast<std::size_t>(l)];
+            if (lane.episode < 0) continue;
+            lane.steps_left -= lane.valid;
+            if (ended[static_cast<std::size_t>(l)]) {
+                observer_.end(l, final_worlds[static_cast<std::size_t>(l)]);
+            } else if (config_.stop_when_still == 0 && at_rest(l)) {
+                observer_.rest(l, lane.steps_left);
+                read_world(l);
+                observer_.end(l, lane.world);
+            } else {
+                continue;
+            }
+            --running_;
+            start_next(l);
+        }
+    }
+
+    bool stood_still(int l) {
+        Pose const was{before_.x[l], before_.y[l], before_.theta[l]}, is{work_.x[l], work_.y[l], work_.theta[l]};
+        return is_still(was, is) && ++lanes_[static_cast<std::size_t>(l)].still_steps > config_.stop_when_still;
+    }
+
+    /// True if the last step left everything as it was that steps depend on: pose, bumpers, hidden neurons, world. All
+    /// further steps are then the same. (Any event of the rules changes one of the world's values compared here.)
+    bool at_rest(int l) const {
+        if (work_.x[l] != before_.x[l] || work_.y[l] != before_.y[l] || work_.theta[l] != before_.theta[l]) return false;
+        for (std::size_t i = static_cast<std::size_t>(l); i < hidden_before_.size(); i += static_cast<std::size_t>(width_))
+            if (work_.neurons[static_cast<std::size_t>(sensor_count * width_) + i] != hidden_before_[i]) return false;
+        return work_.bumper_right[l] == before_.bumper_right[l] && work_.bumper_left[l] == before_.bumper_left[l]
+            && work_.carrying[l] == before_.carrying[l] && work_.door_open[l] == before_.door_open[l] && work_.balls[l] == before_.balls[l]
+            && work_.switch_lit[l] == before_.switch_lit[l] && work_.switch_timer[l] == before_.switch_timer[l];
+    }
+
+    Arena const& arena_;
+    EpisodeConfig const& config_;
+    std::span<Network const> episodes_;
+    int chunk_steps_;
+    LaneObserver& observer_;
+    int width_;
+    RunSteps run_steps_;
+    LaneArenaLayout arena_layout_;
+    LaneNetworkLayout layout_;
+    std::vector<int> queue_;
+    std::size_t next_ = 0;
+    int running_ = 0;
+    bool networks_changed_ = true;
+    std::array<Lane, most_lanes> lanes_;
+    LaneWork work_{}, before_{};
+    AlignedFloats values_, trail_x_, trail_y_, neurons_, next_hidden_;
+    std::vector<std::uint16_t> words_;
+    std::vector<float> hidden_before_;
+};
+
+} // namespace
+
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer) {
+    assert(chunk_steps >= 1 && config.steps >= 1);
+    LaneRun{arena, config, episodes, chunk_steps, observer}.run();
+}
+
+} // namespace lore

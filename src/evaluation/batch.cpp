@@ -1,0 +1,176 @@
+#include <lore/evaluation/evaluator.h>
+
+#include <lore/core/isa.h>
+#include <lore/episode/lanes.h>
+
+#include "chunk_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+namespace lore {
+
+namespace {
+
+static_assert(tally_channels == continuous_count && tally_bins == entropy_bins);
+
+ChunkKernel const& kernel_for(Isa isa) {
+#if LORE_ISA_COUNT > 1
+    if (isa == Isa::v4) return isa_v4::chunk_kernel;
+    if (isa == Isa::v3) return isa_v3::chunk_kernel;
+#endif
+    assert(isa == Isa::baseline);
+    (void)isa;
+    return isa_baseline::chunk_kernel;
+}
+
+/// A chunk's buffers should stay in the innermost cache: 40 steps of 16 lanes are 22 kB.
+constexpr int usual_chunk_steps = 40;
+
+/// Turns what the lanes do into Evaluations, chunk by chunk.
+class Recorder : public LaneObserver {
+public:
+    Recorder(EvaluationContext const& context, std::span<Evaluation> evaluations)
+        : context_(context), evaluations_(evaluations), kernel_(kernel_for(active_isa())) {
+        if (context.shaper) {
+            window_length_ = context.shaper->base().config().window_length;
+            reader_.emplace(context.shaper->reader());
+        }
+    }
+
+    /// Whole windows, where there is a knowledge base.
+    int chunk_steps() const {
+        return window_length_ == 0 ? usual_chunk_steps : window_length_ * std::max(1, usual_chunk_steps / window_length_);
+    }
+
+    void begin(int lane, int episode) override {
+        Lane& now = at(lane);
+        now.evaluation = &evaluations_[static_cast<std::size_t>(episode)];
+        now.steps = 0;
+        now.shaping = {};
+        std::size_t const steps = static_cast<std::size_t>(context_.episode.steps);
+        // Room for a chunk more, so that whole chunks can be written.
+        now.bits.resize(steps + static_cast<std::size_t>(chunk_steps()));
+        now.path.clear();
+        for (auto& channel : tally_.counts)
+            for (auto& bin : channel) bin[lane] = 0;
+    }
+
+    void see(LaneChunk const& chunk, std::span<int const> valid) override {
+        kernel_.tally(chunk.values, chunk.steps, tally_);
+        std::array<std::uint16_t*, most_lanes> places{};
+        idle_.resize(static_cast<std::size_t>(chunk.steps));
+        for (int lane = 0; lane < chunk.width; ++lane)
+            places[static_cast<std::size_t>(lane)] = valid[static_cast<std::size_t>(lane)] > 0 ? at(lane).bits.data() + at(lane).steps : idle_.data();
+        kernel_.transpose_words(chunk.words, chunk.steps, places.data());
+        bool const shaping = reader_ && std::any_of(valid.begin(), valid.end(), [this](int rows) { return rows >= window_length_; });
+        int const columns = chunk.steps * continuous_count;
+        if (shaping) {
+            windows_.resize(static_cast<std::size_t>(columns * chunk.width));
+            kernel_.transpose_values(chunk.values, columns, windows_.data(), columns);
+        }
+
+        for (int lane = 0; lane < chunk.width; ++lane) {
+            int const rows = valid[static_cast<std::size_t>(lane)];
+            if (rows == 0) continue;
+            Lane& now = at(lane);
+            for (int row = rows; row < chunk.steps; ++row) count_row(chunk, lane, row, ~0u);   // not the episode's: take back
+            for (int row = (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample; row < rows; row += steps_per_tile_sample)
+                now.path.push_back(tile_of(context_.arena, chunk.x[row * chunk.width + lane], chunk.y[row * chunk.width + lane]));
+            if (shaping)
+                for (int row = 0; row + window_length_ <= rows; row += window_length_) show_window(lane, row, columns);
+            now.steps += rows;
+        }
+        last_ = chunk;
+    }
+
+    void rest(int lane, int steps) override {
+        Lane& now = at(lane);
+        int const row = last_.steps - 1;
+        for (int k = 0; k < steps; ++k) now.bits[static_cast<std::size_t>(now.steps + k)] = last_.words[row * last_.width + lane];
+        count_row(last_, lane, row, static_cast<std::uint32_t>(steps));
+        int const first = now.steps + (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
+        Tile const tile = tile_of(context_.arena, last_.x[row * last_.width + lane], last_.y[row * last_.width + lane]);
+        for (int step = first; step < now.steps + steps; step += steps_per_tile_sample) now.path.push_back(tile);
+        if (reader_ && steps >= window_length_) show_still_window(lane, row);
+        now.steps += steps;
+    }
+
+    void end(int lane, WorldState const& world) override {
+        Lane& now = at(lane);
+        Evaluation& e = *now.evaluation;
+        e.balls = world.collected;
+        e.shaping = now.shaping.best;
+        Descriptors& d = e.descriptors;
+        d.balls.assign(world.released.begin(), world.released.begin() + static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
+        d.bits.assign(now.bits.begin(), now.bits.begin() + now.steps);
+        d.path = now.path;
+        ChannelHistograms histograms;
+        for (int c = 0; c < continuous_count; ++c)
+            for (int bin = 0; bin < entropy_bins; ++bin)
+                histograms.continuous[static_cast<std::size_t>(c)][static_cast<std::size_t>(bin)] = tally_.counts[c][bin][lane];
+        for (std::uint16_t const word : d.bits)
+            for (int c = 0; c < binary_count; ++c) histograms.ones[static_cast<std::size_t>(c)] += word >> c & 1u;
+        d.entropies = entropies(histograms, now.steps);
+    }
+
+private:
+    struct Lane {
+        Evaluation* evaluation = nullptr;
+        int steps = 0;
+        std::vector<std::uint16_t> bits;
+        std::vector<Tile> path;
+        ShapingState shaping;
+    };
+
+    Lane& at(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
+
+    void count_row(LaneChunk const& chunk, int lane, int row, std::uint32_t times) {
+        for (int c = 0; c < continuous_count; ++c)
+            tally_.counts[c][entropy_bin(chunk.values[(row * continuous_count + c) * chunk.width + lane])][lane] += times;
+    }
+
+    void show_window(int lane, int row, int columns) {
+        Lane& now = at(lane);
+        auto const length = static_cast<std::size_t>(window_length_);
+        std::span<std::uint16_t const> const bits{now.bits.data() + now.steps + row, length};
+        reader_->see({bits, {windows_.data() + lane * columns + row * continuous_count, length * continuous_count}}, now.shaping);
+    }
+
+    /// Every window of a robot at rest shows the same row throughout.
+    void show_still_window(int lane, int row) {
+        auto const length = static_cast<std::size_t>(window_length_);
+        std::vector<float> values;
+        for (int step = 0; step < window_length_; ++step)
+            for (int c = 0; c < continuous_count; ++c)
+                values.push_back(last_.values[(row * continuous_count + c) * last_.width + lane]);
+        reader_->see({{at(lane).bits.data() + at(lane).steps, length}, values}, at(lane).shaping);
+    }
+
+    EvaluationContext const& context_;
+    std::span<Evaluation> evaluations_;
+    ChunkKernel const& kernel_;
+    int window_length_ = 0;
+    std::optional<Shaper::Reader> reader_;
+    std::array<Lane, most_lanes> lanes_;
+    LaneTally tally_{};
+    LaneChunk last_;                     ///< rest() reads the row that was seen last
+    std::vector<float> windows_;         ///< [lane][step][6], the chunk as windows want it
+    std::vector<std::uint16_t> idle_;    ///< where words of idle lanes go
+};
+
+} // namespace
+
+std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::span<Genome const* const> genomes) {
+    std::vector<Network> networks;
+    networks.reserve(genomes.size());
+    for (Genome const* genome : genomes) networks.push_back(compile(*genome));
+    std::vector<Evaluation> evaluations(genomes.size());
+    Recorder recorder{context, evaluations};
+    run_in_lanes(context.arena, context.episode, networks, recorder.chunk_steps(), recorder);
+    return evaluations;
+}
+
+} // namespace lore

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+/// What is done to every chunk of lanes, compiled once per instruction set (cmake: lore_kernel).
+namespace lore {
+
+inline constexpr int tally_channels = 6;    ///< the continuous channels
+inline constexpr int tally_bins     = 10;
+
+/// counts[channel][bin][lane].
+struct LaneTally {
+    std::uint32_t counts[tally_channels][tally_bins][16];
+};
+
+/// Adds a chunk of `steps` rows to the histograms of all lanes. values[step][6][lane].
+using TallyChunk = void(float const* values, int steps, LaneTally&);
+/// out[lane][column] = values[column][lane] for `columns` columns; rows of `out` are `stride` apart.
+using TransposeValues = void(float const* values, int columns, float* out, int stride);
+/// The same for words, appended to one place a lane.
+using TransposeWords = void(std::uint16_t const* words, int steps, std::uint16_t* const* out);
+
+struct ChunkKernel {
+    TallyChunk* tally;
+    TransposeValues* transpose_values;
+    TransposeWords* transpose_words;
+};
+
+namespace isa_baseline { extern ChunkKernel const chunk_kernel; }
+namespace isa_v3 { extern ChunkKernel const chunk_kernel; }
+namespace isa_v4 { extern ChunkKernel const chunk_kernel; }
+
+} // namespace lore
