@@ -22,7 +22,7 @@ DOORS = {
     r"toml\+\+/.*": ["core/toml.cpp"],
     r"Random123/.*": ["core/random.cpp"],
     r"librsvg/.*|cairo.*": ["figure"],
-    r"zstd.*": ["archive"],
+    r"zstd.*|zlib\.h": ["archive"],
     r"xxhash\.h": ["archive"],
     r"CLI/.*": ["tools"],
 }
