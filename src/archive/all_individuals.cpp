@@ -64,26 +64,25 @@ Bytes file_head() { return seal(FileKind::all_individuals, {}, Packing::plain); 
 struct AllIndividualsWriter::State {
     std::string path;
     FileDescriptor file;
-    std::uint64_t bytes = 0, chain = 0;
+    AllIndividualsMark at;   ///< its `gathered` is filled by mark()
     ByteWriter gathered;
-    std::uint32_t generations = 0;
     Pool pool;
 
     void write_frame() {
-        if (generations == 0) return;
+        if (at.generations == 0) return;
         Bytes const raw = gathered.take();
         gathered = {};
         Bytes frame(sizeof(FrameHeader) + ZSTD_compressBound(raw.size()));
         std::size_t const packed = ZSTD_compress(frame.data() + sizeof(FrameHeader), frame.size() - sizeof(FrameHeader), raw.data(), raw.size(), zstd_level);
         assert(!ZSTD_isError(packed));
         frame.resize(sizeof(FrameHeader) + packed);
-        FrameHeader header{frame_mark, generations, raw.size(), packed, 0};
-        header.checksum = checksum_of(header, std::span{frame}.subspan(sizeof(FrameHeader)), chain);
+        FrameHeader header{frame_mark, at.generations, raw.size(), packed, 0};
+        header.checksum = checksum_of(header, std::span{frame}.subspan(sizeof(FrameHeader)), at.chain);
         std::memcpy(frame.data(), &header, sizeof header);
         write_fully(file.get(), frame, path);
-        bytes += frame.size();
-        chain = header.checksum;
-        generations = 0;
+        at.bytes += frame.size();
+        at.chain = header.checksum;
+        at.generations = 0;
     }
 };
 
@@ -93,24 +92,24 @@ AllIndividualsWriter::AllIndividualsWriter(std::string path) : state_(std::make_
     if (state_->file.get() < 0) throw file_error("write", state_->path, errno);
     Bytes const head = file_head();
     write_fully(state_->file.get(), head, state_->path);
-    state_->bytes = head.size();
+    state_->at.bytes = head.size();
 }
 
-AllIndividualsWriter::AllIndividualsWriter(std::string path, std::uint64_t bytes, std::uint64_t chain, Population const& population)
+AllIndividualsWriter::AllIndividualsWriter(std::string path, AllIndividualsMark const& mark, Population const& population)
     : state_(std::make_unique<State>()) {
     state_->path = std::move(path);
     state_->file = FileDescriptor{::open(state_->path.c_str(), O_WRONLY | O_CLOEXEC)};
     if (state_->file.get() < 0) throw file_error("write", state_->path, errno);
     struct stat status {};
     if (::fstat(state_->file.get(), &status) != 0) throw file_error("write", state_->path, errno);
-    if (static_cast<std::uint64_t>(status.st_size) < bytes)
+    if (static_cast<std::uint64_t>(status.st_size) < mark.bytes)
         throw Error(fmt::format("cannot go on with {}", state_->path),
-                    fmt::format("it has {} bytes, but the checkpoint was made at {}", status.st_size, bytes),
+                    fmt::format("it has {} bytes, but the checkpoint was made at {}", status.st_size, mark.bytes),
                     "Start the run anew in another directory.");
-    if (::ftruncate(state_->file.get(), static_cast<off_t>(bytes)) != 0 || ::lseek(state_->file.get(), 0, SEEK_END) < 0)
+    if (::ftruncate(state_->file.get(), static_cast<off_t>(mark.bytes)) != 0 || ::lseek(state_->file.get(), 0, SEEK_END) < 0)
         throw file_error("write", state_->path, errno);
-    state_->bytes = bytes;
-    state_->chain = chain;
+    state_->at = mark;
+    state_->gathered.put_all(std::span{mark.gathered});
     state_->pool = pool_of(population.members);
 }
 
@@ -145,17 +144,21 @@ void AllIndividualsWriter::add(GenerationReport const& report) {
     assert(survivor == next.size());
     out.put_all(std::span{std::as_const(mask)});
     state.pool = std::move(next);
-    ++state.generations;
+    ++state.at.generations;
     if (out.size() >= frame_target) state.write_frame();
 }
 
-void AllIndividualsWriter::flush() {
+AllIndividualsMark AllIndividualsWriter::mark() {
+    sync_file(state_->file.get(), state_->path);
+    AllIndividualsMark mark = state_->at;
+    mark.gathered = state_->gathered.bytes();
+    return mark;
+}
+
+void AllIndividualsWriter::finish() {
     state_->write_frame();
     sync_file(state_->file.get(), state_->path);
 }
-
-std::uint64_t AllIndividualsWriter::bytes() const { return state_->bytes; }
-std::uint64_t AllIndividualsWriter::chain() const { return state_->chain; }
 
 namespace {
 

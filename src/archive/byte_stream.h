@@ -27,6 +27,7 @@ public:
         bytes_.push_back(static_cast<std::byte>(value));
     }
     std::size_t size() const { return bytes_.size(); }
+    Bytes const& bytes() const { return bytes_; }
     Bytes take() { return std::move(bytes_); }
 
 private:

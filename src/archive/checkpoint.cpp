@@ -59,7 +59,10 @@ Bytes pack_checkpoint(Checkpoint const& checkpoint) {
     return write_with_boost([&](OutArchive& archive) {
         std::uint64_t const signature = checkpoint.state.signature.value();
         archive << checkpoint.seed << checkpoint.config_digest << checkpoint.evaluations << checkpoint.steps << checkpoint.seconds
-                << checkpoint.progress_bytes << checkpoint.archive_bytes << checkpoint.archive_chain << signature;
+                << checkpoint.progress_bytes << signature;
+        AllIndividualsMark const& mark = checkpoint.all_individuals;
+        archive << mark.bytes << mark.chain << mark.generations;
+        put_blob(archive, mark.gathered);
         put_population(archive, checkpoint.state.population);
     });
 }
@@ -69,7 +72,10 @@ Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_vie
     read_with_boost(payload, name, [&](InArchive& archive) {
         std::uint64_t signature = 0;
         archive >> checkpoint.seed >> checkpoint.config_digest >> checkpoint.evaluations >> checkpoint.steps >> checkpoint.seconds
-            >> checkpoint.progress_bytes >> checkpoint.archive_bytes >> checkpoint.archive_chain >> signature;
+            >> checkpoint.progress_bytes >> signature;
+        AllIndividualsMark& mark = checkpoint.all_individuals;
+        archive >> mark.bytes >> mark.chain >> mark.generations;
+        get_blob(archive, mark.gathered, SIZE_MAX);
         checkpoint.state.signature = Signature{signature};
         checkpoint.state.population = get_population(archive);
     });

@@ -30,8 +30,8 @@ std::vector<Remembered> read(std::string const& path, int through) {
     return all;
 }
 
-/// A run of `generations` that archives everybody, as `flush_every` has it; returns what it saw.
-std::vector<Remembered> archived_run(std::string const& path, int generations, int flush_every) {
+/// A run of `generations` that archives everybody; returns what it saw.
+std::vector<Remembered> archived_run(std::string const& path, int generations) {
     AllIndividualsWriter writer{path};
     std::vector<Remembered> seen;
     PretendedEvaluator evaluator;
@@ -41,10 +41,9 @@ std::vector<Remembered> archived_run(std::string const& path, int generations, i
             seen.push_back({birth.id, birth.parent ? std::optional{birth.parent->id} : std::nullopt, birth.genome, birth.balls});
         }
         writer.add(report);
-        if (report.generation % flush_every == 0) writer.flush();
         return true;
     });
-    writer.flush();
+    writer.finish();
     return seen;
 }
 
@@ -52,7 +51,7 @@ std::vector<Remembered> archived_run(std::string const& path, int generations, i
 
 TEST(AllIndividuals, are_read_back_in_order_of_birth) {
     Scratch const scratch;
-    auto const seen = archived_run(scratch.file("all"), 80, 7);
+    auto const seen = archived_run(scratch.file("all"), 80);
     EXPECT_EQ(read(scratch.file("all"), 80), seen);
     EXPECT_EQ(seen.size(), 40u + 80u * 20u);
     AllIndividualsSummary const summary = check_all_individuals(scratch.file("all"));
@@ -63,7 +62,7 @@ TEST(AllIndividuals, are_read_back_in_order_of_birth) {
 
 TEST(AllIndividuals, take_less_than_75_bytes_each) {
     Scratch const scratch;
-    auto const seen = archived_run(scratch.file("all"), 400, 100);
+    auto const seen = archived_run(scratch.file("all"), 400);
     double const each = static_cast<double>(std::filesystem::file_size(scratch.file("all"))) / static_cast<double>(seen.size());
     RecordProperty("bytes_an_individual", std::to_string(each));
     EXPECT_LT(each, 75) << "800 000 individuals are to take less than 60 MB";
@@ -71,35 +70,39 @@ TEST(AllIndividuals, take_less_than_75_bytes_each) {
 
 TEST(AllIndividuals, are_the_same_bytes_after_a_run_was_cut_back_to_its_checkpoint) {
     Scratch const scratch;
-    auto const seen = archived_run(scratch.file("straight"), 30, 10);
+    constexpr int generations = 700;   // several frames
+    archived_run(scratch.file("straight"), generations);
     std::string const path = scratch.file("resumed");
     PretendedEvaluator evaluator;
     EvolutionState state;
-    std::uint64_t bytes = 0, chain = 0;
+    AllIndividualsMark mark;
     {
         AllIndividualsWriter writer{path};
-        evolve(small_evolution(30), 1, evaluator, {}, [&](GenerationReport const& report) {
+        evolve(small_evolution(generations), 1, evaluator, {}, [&](GenerationReport const& report) {
             writer.add(report);
-            if (report.generation % 10 == 0) writer.flush();
-            if (report.generation == 10) { state = *report.state; bytes = writer.bytes(); chain = writer.chain(); }
-            return report.generation < 23;   // killed after frames that no checkpoint knows
+            if (report.generation == 310) {
+                state = *report.state;
+                mark = writer.mark();
+            }
+            return report.generation < 650;   // killed after frames that no checkpoint knows
         });
     }
-    AllIndividualsWriter writer{path, bytes, chain, state.population};
-    evolve(small_evolution(30), 1, evaluator, state, [&](GenerationReport const& report) {
+    EXPECT_LT(mark.bytes, std::filesystem::file_size(path));
+    EXPECT_FALSE(mark.gathered.empty());
+    AllIndividualsWriter writer{path, mark, state.population};
+    evolve(small_evolution(generations), 1, evaluator, state, [&](GenerationReport const& report) {
         writer.add(report);
-        if (report.generation % 10 == 0) writer.flush();
         return true;
     });
-    writer.flush();
-    EXPECT_EQ(read(path, 30), seen);
+    writer.finish();
     EXPECT_EQ(read_file(path), read_file(scratch.file("straight")));
-    EXPECT_THROW(AllIndividualsWriter(path, 1u << 30, chain, state.population), Error);
+    mark.bytes = 1u << 30;
+    EXPECT_THROW(AllIndividualsWriter(path, mark, state.population), Error);
 }
 
 TEST(AllIndividuals, that_end_too_early_or_were_cut_or_changed_are_refused) {
     Scratch const scratch;
-    archived_run(scratch.file("all"), 6, 2);
+    archived_run(scratch.file("all"), 6);
     EXPECT_THROW(read(scratch.file("all"), 7), Error);
     EXPECT_EQ(read(scratch.file("all"), 3).size(), 40u + 3u * 20u);
     auto const bytes = read_file(scratch.file("all"));
@@ -120,17 +123,22 @@ TEST(AllIndividuals, that_end_too_early_or_were_cut_or_changed_are_refused) {
     }
 }
 
-TEST(AllIndividuals, notice_frames_that_were_swapped) {
+TEST(AllIndividuals, notice_a_lost_frame) {
     Scratch const scratch;
-    archived_run(scratch.file("all"), 2, 1);
+    archived_run(scratch.file("all"), 700);
     auto const bytes = read_file(scratch.file("all"));
-    auto const length_at = [&](std::size_t at) { std::uint64_t length; std::memcpy(&length, bytes.data() + at + 16, 8); return 32 + length; };
-    std::size_t const first = 64, second = first + length_at(first), third = second + length_at(second);
+    auto const end_of_frame = [&](std::size_t at) {
+        std::uint64_t stored = 0;
+        std::memcpy(&stored, bytes.data() + at + 16, sizeof stored);
+        return at + 32 + stored;
+    };
+    std::size_t const second = end_of_frame(64), third = end_of_frame(second);
+    ASSERT_LT(third, bytes.size());
     std::vector<std::byte> lost{bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(second)};
     lost.insert(lost.end(), bytes.begin() + static_cast<std::ptrdiff_t>(third), bytes.end());
     write_file_atomically(scratch.file("lost"), std::span<std::byte const>{lost});
     try {
-        read(scratch.file("lost"), 2);
+        read(scratch.file("lost"), 700);
         FAIL();
     } catch (Error const& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("changed or lost"));

@@ -2,11 +2,13 @@
 
 #include <lore/evolution/evolution.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lore {
 
@@ -15,22 +17,31 @@ namespace lore {
 /// A frame holds the generations since the last one; a child is written as its difference from its parent (about 30
 /// bytes), and each generation says who survived it, so that writer and reader alike keep one population and no more.
 /// Each frame has its own lengths and a checksum that runs on from frame to frame: none can be changed, lost or swapped
-/// unnoticed.
+/// unnoticed. Where frames end depends on their content alone, so that a resumed run writes the same bytes.
+
+/// Where a file stands; what a checkpoint keeps of it.
+struct AllIndividualsMark {
+    std::uint64_t bytes = 0;        ///< length of the file
+    std::uint64_t chain = 0;        ///< running checksum at that place
+    std::uint32_t generations = 0;  ///< gathered, but not in a frame yet
+    std::vector<std::byte> gathered;
+};
+
 class AllIndividualsWriter {
 public:
     /// Starts a new file.
     explicit AllIndividualsWriter(std::string path);
-    /// Goes on after a checkpoint: cuts the file back to `bytes`, whose running checksum was `chain`, with the
-    /// population of that moment. Throws Error if the file is shorter.
-    AllIndividualsWriter(std::string path, std::uint64_t bytes, std::uint64_t chain, Population const&);
+    /// Goes on after a checkpoint: cuts the file back to the mark, with the population of that moment. Throws Error if
+    /// the file is shorter.
+    AllIndividualsWriter(std::string path, AllIndividualsMark const&, Population const&);
     ~AllIndividualsWriter();
 
     /// Call it for every generation in order. Writes a frame when enough has gathered.
     void add(GenerationReport const&);
-    /// Writes what has gathered and makes it durable.
-    void flush();
-    std::uint64_t bytes() const;   ///< length of the file, as of the last frame
-    std::uint64_t chain() const;   ///< running checksum at that place
+    /// Makes the frames so far durable and says where the file stands.
+    AllIndividualsMark mark();
+    /// Writes what has gathered as the last frame.
+    void finish();
 
 private:
     struct State;

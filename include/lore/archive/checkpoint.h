@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/archive/all_individuals.h>
 #include <lore/archive/container.h>
 #include <lore/evolution/evolution.h>
 
@@ -19,8 +20,7 @@ struct Checkpoint {
     std::uint64_t evaluations = 0, steps = 0;
     double seconds = 0;                   ///< wall time of all sessions
     std::uint64_t progress_bytes = 0;     ///< length of progress.csv
-    std::uint64_t archive_bytes = 0;      ///< length of all.lore, 0 without
-    std::uint64_t archive_chain = 0;      ///< its running checksum
+    AllIndividualsMark all_individuals;   ///< of all.lore; 0 bytes without
 };
 
 Bytes pack_checkpoint(Checkpoint const&);
