@@ -46,6 +46,7 @@ void Post::send(int to, MessageKind kind, int unit, std::span<std::byte const> p
 }
 
 std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
+    if (comm_ == MPI_COMM_NULL) return std::nullopt;   // a process alone, without MPI
     forget_sent();
     for (MessageKind const kind : kinds) {
         int there = 0;

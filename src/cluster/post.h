@@ -21,7 +21,7 @@ struct Message {
 };
 
 /// Sends and receives Lore's byte messages: a small header (magic, kind, unit, length), then the payload, in one MPI
-/// message.
+/// message. Without a communicator nothing ever arrives.
 class Post {
 public:
     explicit Post(MPI_Comm comm) : comm_(comm) {}

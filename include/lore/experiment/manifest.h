@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lore {
@@ -13,13 +14,14 @@ std::string_view name(RunStatus);
 
 /// A file that went into a run or came out of it, and what it was like.
 struct FileRecord {
+    std::string role;       ///< "configuration", "arena", "knowledge base", or that of an output
     std::string path;       ///< inputs as given, outputs relative to the run's directory
     std::uint64_t bytes = 0;
     std::string checksum;   ///< XXH3-64, 16 hexadecimal digits
 };
 
 /// One start of the program on this run.
-struct Session {
+struct RunSession {
     std::string command_line;
     std::string started, stopped;   ///< UTC, ISO 8601; stopped is empty while it runs, or if it was killed
     int first_generation = 0;       ///< the generation it started from
@@ -44,14 +46,16 @@ struct Manifest {
     std::string best;               ///< its id
     BuildInformation build;
     std::vector<FileRecord> inputs, outputs;
-    std::vector<Session> sessions;
+    std::vector<RunSession> sessions;
 };
 
 void write_manifest(std::string const& path, Manifest const&);
 /// Throws Error: missing, not JSON, or a field missing or of another type.
 Manifest read_manifest(std::string const& path);
 
-FileRecord record_of(std::string const& path, std::string const& shown_as);
+FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as);
+/// The first with that role, or null.
+FileRecord const* find_role(std::vector<FileRecord> const&, std::string_view role);
 /// Now, UTC, as "2025-01-31T12:00:00Z".
 std::string time_stamp();
 

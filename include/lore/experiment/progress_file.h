@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lore {
@@ -33,7 +34,26 @@ std::string text(ProgressRow const&);
 /// Throws Error: missing, another header, a damaged row. A last line without its end (a killed run) is left out.
 std::vector<ProgressRow> read_progress(std::string const& path);
 
-/// What a generation's report says, `evaluations`, `steps` and `seconds` left to the caller.
+/// What a generation's report says; evaluations and steps are those of the generation alone, seconds 0.
 ProgressRow row_of(GenerationReport const&);
+
+/// Appends rows to progress.csv, each at once, so that others can follow.
+class ProgressWriter {
+public:
+    /// A new file with its header, or an old one cut back to `bytes` (not 0). Throws Error, also if it is shorter.
+    ProgressWriter(std::string path, std::uint64_t bytes);
+    ~ProgressWriter();
+    ProgressWriter(ProgressWriter const&) = delete;
+    ProgressWriter& operator=(ProgressWriter const&) = delete;
+    void add(ProgressRow const&);
+    /// Makes the rows so far durable; returns the file's length.
+    std::uint64_t sync();
+
+private:
+    void write(std::string_view line);
+    std::string path_;
+    int file_ = -1;
+    std::uint64_t bytes_ = 0;
+};
 
 } // namespace lore

@@ -1,0 +1,40 @@
+#include <lore/experiment/run.h>
+
+#include "work_order.h"
+
+#include <chrono>
+
+namespace lore {
+
+namespace {
+
+constexpr std::uint64_t bench_seed = 1;
+
+/// Small, but with everything in it: several distances, growing networks, balls collected.
+ExperimentConfig bench_config() {
+    ExperimentConfig config;
+    config.evolution.population = 64;
+    config.evolution.founders = 128;
+    config.evolution.generations = 24;
+    config.evolution.diversity.period = 4;
+    return config;
+}
+
+} // namespace
+
+BenchOutcome run_bench(Session const& session) {
+    WorkOrder const order{bench_config(), arena_text("collectball"), "", ""};
+    EvaluationContext context = context_of(order);
+    give_order(session, order);
+    Farm farm{session.world(), evaluation_in(std::move(context))};
+    std::uint64_t evaluations = 0;
+    auto const start = std::chrono::steady_clock::now();
+    EvolutionState const state = evolve(order.config.evolution, bench_seed, farm, {}, [&](GenerationReport const& report) {
+        evaluations += report.born.size();
+        return true;
+    });
+    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
+}
+
+} // namespace lore

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <lore/cluster/farm.h>
+#include <lore/experiment/config.h>
+
+#include <string>
+
+namespace lore {
+
+/// What every rank must know to evaluate. Rank 0 reads the files and sends their text, so that all work with the same
+/// whatever happens to the files meanwhile; only the knowledge base is opened by each, to be shared by a node's ranks.
+struct WorkOrder {
+    ExperimentConfig config;
+    std::string arena_text;
+    std::string knowledge_path;       ///< absolute, or empty
+    std::string knowledge_checksum;   ///< that every rank must find
+};
+
+/// Throws Error: the knowledge base is missing or damaged, or does not fit.
+EvaluationContext context_of(WorkOrder const&);
+/// How a rank evaluates in that context.
+BatchEvaluation evaluation_in(EvaluationContext);
+
+/// Rank 0: gives the order and hears from everybody that it can work. Returns the ranks' host names.
+/// Throws Error with the first complaint; everybody is released then.
+std::vector<std::string> give_order(Session const&, WorkOrder const&);
+
+} // namespace lore

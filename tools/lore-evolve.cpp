@@ -1,0 +1,163 @@
+// Evolves controllers on a task, alone or on many ranks:
+//
+//   lore-evolve jobs/source.toml --seed 7 --out runs/source/007
+//   mpirun -n 2 lore-evolve jobs/target.toml --kb kb1.lorekb --seed 7 --out runs/kb1/007
+//
+// Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/formats.md), and prints
+// the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
+
+#include <lore/core/error.h>
+#include <lore/core/isa.h>
+#include <lore/experiment/run.h>
+#include <lore/experiment/run_directory.h>
+#include <lore/experiment/version.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+using namespace lore;
+
+constexpr char examples[] = R"(Examples:
+  lore-evolve jobs/source.toml --seed 7 --out runs/source/007
+  mpirun -n 2 lore-evolve jobs/source.toml --seed 7 --out runs/source/007 --resume
+  mpirun -n 2 lore-evolve jobs/target.toml --kb kb1.lorekb --out runs/kb1/001 --set evolution.generations=500
+  lore-evolve --bench
+
+Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line or configuration, 1 any other failure.)";
+
+/// "HH:MM:SS", "MM:SS" or seconds.
+double seconds_of(std::string const& text) {
+    double total = 0;
+    int parts = 0;
+    for (std::size_t start = 0; start <= text.size(); ++parts) {
+        std::size_t const end = std::min(text.find(':', start), text.size());
+        unsigned part = 0;
+        auto const [stop, error] = std::from_chars(text.data() + start, text.data() + end, part);
+        if (error != std::errc{} || stop != text.data() + end || parts == 3)
+            throw UsageError(fmt::format("--max-time {}", text), "it is no time", "Write it like 01:30:00.");
+        total = total * 60 + part;
+        start = end + 1;
+    }
+    return total;
+}
+
+struct CommandLine {
+    RunOptions run;
+    bool bench = false;
+    std::string archive = "lineage";
+    std::string max_time;
+};
+
+/// The rest of the program on rank 0, after the command line: 0 or 75.
+ExitCode work(Session const& session, CommandLine& line) {
+    if (line.bench) {
+        BenchOutcome const bench = run_bench(session);
+        fmt::print("{:.0f} steps per second on {} rank(s)\nsignature: {}\n", bench.steps_per_second, session.size(), bench.signature);
+        return ExitCode::done;
+    }
+    RunOutcome const outcome = run_experiment(session, line.run);
+    if (!outcome.finished) {
+        fmt::print(stderr, "stopped at generation {} by {}; go on with --resume\n", outcome.generation, outcome.stop_reason);
+        return ExitCode::interrupted;
+    }
+    fmt::print("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id), outcome.best->balls, outcome.signature);
+    return ExitCode::done;
+}
+
+/// Reads the command line; an exit code where there is nothing else to do (--help, or a mistake).
+std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& line) {
+    CLI::App app{"Evolves robot controllers (NSGA-II with dynamic behavioural diversity) and archives their lineages."};
+    app.name("lore-evolve");
+    app.footer(examples);
+    app.set_version_flag("--version", [] { return version_text("lore-evolve"); });
+    app.add_option("config", line.run.config_path, "the run's configuration, such as jobs/source.toml");
+    app.add_option("--out", line.run.directory, "directory to write into; made if it is not there")->type_name("DIR");
+    std::uint64_t seed = 1;
+    auto* const seed_option = app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N");
+    app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")->type_name("KEY=VALUE")->expected(1)->take_all();
+    app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
+    app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
+    app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
+    app.add_option("--archive", line.archive, "keep the ancestors of the last population, or everybody ever evaluated")
+        ->check(CLI::IsMember({"lineage", "all"}))->type_name("lineage|all");
+    app.add_flag("--bench", line.bench, "print the signature of a small fixed run and the steps simulated per second");
+    app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::Success const& help) {
+        app.exit(help);
+        return ExitCode::done;
+    } catch (CLI::ParseError const& error) {
+        throw UsageError("the command line cannot be understood", error.what(), "See 'lore-evolve --help'.");
+    }
+    if (line.bench) return std::nullopt;
+    if (seed_option->count() > 0) line.run.seed = seed;
+    if (line.run.directory.empty()) throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");
+    if (line.run.config_path.empty() && !line.run.resume)
+        throw UsageError("no configuration", "the file's name is missing", "Name one, such as jobs/source.toml.");
+    if (!line.max_time.empty()) line.run.max_seconds = seconds_of(line.max_time);
+    line.run.archive_all = line.archive == "all";
+    line.run.command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
+    return std::nullopt;
+}
+
+/// Rank 0's part.
+ExitCode direct(Session const& session, int argc, char** argv) {
+    CommandLine line;
+    std::optional<ExitCode> only;
+    try {
+        active_isa();   // LORE_ISA may be wrong
+        only = read_command_line(argc, argv, line);
+    } catch (...) {
+        release_other_ranks(session);
+        throw;
+    }
+    if (only) {
+        release_other_ranks(session);
+        return *only;
+    }
+    return work(session, line);
+}
+
+int complain(std::string_view what, ExitCode code) {
+    std::fflush(stdout);
+    fmt::print(stderr, "lore-evolve: {}\n", what);
+    return static_cast<int>(code);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    int status = 0;
+    try {
+        // 1. MPI, if a launcher has started us.
+        Session const session{argc, argv};
+        try {
+            // 2. Rank 0 directs, the others evaluate for it.
+            if (session.rank() == 0) status = static_cast<int>(direct(session, argc, argv));
+            else work_for_rank_0(session);
+        } catch (Error const& error) {
+            if (session.rank() != 0) { complain(error.what(), error.exit_code()); session.abort(1); }
+            status = complain(error.what(), error.exit_code());
+        } catch (std::bad_alloc const&) {
+            complain(fmt::format("rank {} on {} ran out of memory", session.rank(), host_name()), ExitCode::failure);
+            session.abort(1);
+        } catch (std::exception const& error) {
+            // 3. Whatever was not foreseen ends all ranks: one that just left would let the others wait for ever.
+            complain(fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what()), ExitCode::failure);
+            session.abort(1);
+        }
+        if (std::fflush(stdout) != 0 && status == 0) status = complain("cannot write the result to stdout", ExitCode::failure);
+    } catch (Error const& error) {
+        return complain(error.what(), error.exit_code());
+    }
+    return status;
+}
