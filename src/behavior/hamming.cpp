@@ -2,6 +2,7 @@
 #include "hamming_kernel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace lore {
@@ -21,28 +22,135 @@ HammingKernel hamming_kernel(Isa isa) {
     return isa_baseline::hamming;
 }
 
+namespace {
+
+using Plane = std::array<std::uint64_t, words_per_plane>;
+
+/// The different planes among those of one channel and stretch of time. In a population there are few: a lamp that nobody
+/// sees, a ball that everybody carries, a child that has not yet left its parent's way. Measured on evolved populations,
+/// only 7 to 15 % of the pairs of planes are left to count.
+class PlaneClasses {
+public:
+    explicit PlaneClasses(std::size_t members) : class_of_(members), slots_(std::bit_ceil(2 * members)) {}
+
+    void classify(std::span<Plane const> planes) {
+        std::fill(slots_.begin(), slots_.end(), 0);
+        representatives_.clear();
+        for (std::size_t member = 0; member < planes.size(); ++member) class_of_[member] = class_of(planes, static_cast<int>(member));
+    }
+
+    std::span<int const> class_of() const { return class_of_; }
+    std::span<int const> representatives() const { return representatives_; }
+
+private:
+    static std::size_t hash(Plane const& plane) {
+        std::uint64_t sum = 0, factor = 0x9e3779b97f4a7c15u;
+        for (std::uint64_t const word : plane) {
+            sum += (word ^ (word >> 32)) * factor;
+            factor += 0x3c6ef372fe94f82au;   // stays odd
+        }
+        return static_cast<std::size_t>(sum >> 40);
+    }
+
+    int class_of(std::span<Plane const> planes, int member) {
+        std::size_t const mask = slots_.size() - 1;
+        for (std::size_t slot = hash(planes[member]) & mask;; slot = (slot + 1) & mask) {
+            if (slots_[slot] == 0) {
+                representatives_.push_back(member);
+                slots_[slot] = static_cast<int>(representatives_.size());
+            }
+            int const known = slots_[slot] - 1;
+            if (planes[representatives_[known]] == planes[member]) return known;
+        }
+    }
+
+    std::vector<int> class_of_, representatives_;
+    std::vector<int> slots_;   ///< class + 1, or 0
+};
+
+/// Counts differing bits between rows [first, size) and all members, plane by plane.
+class DifferenceCounts {
+public:
+    DifferenceCounts(std::span<Descriptors const* const> pool, int first, std::size_t longest)
+        : pool_(pool), first_(static_cast<std::size_t>(first)), kernel_(hamming_kernel(active_isa())),
+          planes_(pool.size() * bits_per_step * sizeof(Plane) / sizeof(CacheLine)), classes_(pool.size()),
+          sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
+        for (std::size_t start = 0; start < longest; start += steps_per_plane) count_stretch(start);
+    }
+
+    std::uint32_t operator()(int i, int j) const { return sums_[(static_cast<std::size_t>(i) - first_) * pool_.size() + static_cast<std::size_t>(j)]; }
+
+private:
+    void count_stretch(std::size_t start) {
+        std::size_t const members = pool_.size();
+        Plane* const planes = reinterpret_cast<Plane*>(planes_.data());   // [channel][member]
+        for (std::size_t member = 0; member < members; ++member) {
+            std::array<std::uint16_t, steps_per_plane> steps{};            // zeros after the end
+            std::vector<std::uint16_t> const& bits = pool_[member]->bits;
+            if (bits.size() > start) std::memcpy(steps.data(), bits.data() + start, std::min(bits.size() - start, steps.size()) * sizeof steps[0]);
+            kernel_.split(steps.data(), planes[member].data(), static_cast<std::ptrdiff_t>(members * words_per_plane));
+        }
+        for (int channel = 0; channel < bits_per_step; ++channel) count_channel({planes + static_cast<std::size_t>(channel) * members, members});
+    }
+
+    void count_channel(std::span<Plane const> planes) {
+        classes_.classify(planes);
+        std::span<int const> const class_of = classes_.class_of(), representatives = classes_.representatives();
+        if (representatives.size() == 1) return;
+
+        std::size_t const lanes = static_cast<std::size_t>(kernel_.lanes), groups = (representatives.size() + lanes - 1) / lanes;
+        others_.resize(groups * lanes * sizeof(Plane) / sizeof(CacheLine));
+        auto* const others = reinterpret_cast<std::uint64_t*>(others_.data());   // [group][word][lane]
+        for (std::size_t k = 0; k < representatives.size(); ++k)
+            for (std::size_t word = 0; word < words_per_plane; ++word)
+                others[(k / lanes * words_per_plane + word) * lanes + k % lanes] = planes[representatives[k]][word];
+
+        rows_of_.resize(std::max(rows_of_.size(), representatives.size()));
+        for (std::size_t k = 0; k < representatives.size(); ++k) rows_of_[k].clear();
+        for (std::size_t i = first_; i < planes.size(); ++i) rows_of_[class_of[i]].push_back(i);
+        counts_.resize(groups * lanes);
+        for (std::size_t k = 0; k < representatives.size(); ++k) {
+            if (rows_of_[k].empty()) continue;
+            kernel_.differing(planes[representatives[k]].data(), others, static_cast<int>(groups), counts_.data());
+            for (std::size_t j = 0; j < planes.size(); ++j) terms_[j] = counts_[class_of[j]];
+            for (std::size_t const i : rows_of_[k]) kernel_.add(terms_.data(), static_cast<int>(i), &sums_[(i - first_) * planes.size()]);
+        }
+    }
+
+    std::span<Descriptors const* const> pool_;
+    std::size_t first_;
+    HammingKernel kernel_;
+    std::vector<CacheLine> planes_, others_;
+    PlaneClasses classes_;
+    std::vector<std::vector<std::size_t>> rows_of_;   ///< by class
+    std::vector<std::uint32_t> sums_;                 ///< [row - first][member]
+    std::vector<std::uint32_t> counts_, terms_;
+};
+
+/// Set bits among the first `steps` steps.
+std::size_t ones(Descriptors const& d, std::size_t steps) {
+    std::size_t count = 0;
+    for (std::size_t step = 0; step < steps; ++step) count += static_cast<std::size_t>(std::popcount(d.bits[step]));
+    return count;
+}
+
+} // namespace
+
 void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
     pool = pool.first(static_cast<std::size_t>(last));
     std::size_t longest = 0;
     for (Descriptors const* d : pool) longest = std::max(longest, d->bits.size());
-    constexpr std::size_t steps_per_line = sizeof(CacheLine) / sizeof(std::uint16_t), lines_per_block = 16;
-    std::size_t const lines = (longest + steps_per_line * lines_per_block - 1) / (steps_per_line * lines_per_block) * lines_per_block;
-
-    // Zeros after the end, where nothing differs. Robots that stopped at different times are left to the definition.
-    std::vector<CacheLine> packed(lines * pool.size());
-    auto const words_of = [&](int member) { return reinterpret_cast<std::uint64_t*>(packed.data() + lines * static_cast<std::size_t>(member)); };
-    for (int i = 0; i < last; ++i)
-        if (!pool[i]->bits.empty()) std::memcpy(words_of(i), pool[i]->bits.data(), pool[i]->bits.size() * sizeof(std::uint16_t));
-
-    HammingKernel const kernel = hamming_kernel(active_isa());
-    int const words = static_cast<int>(lines * sizeof(CacheLine) / sizeof(std::uint64_t));
+    DifferenceCounts const differences(pool, first, longest);
     for (int i = first; i < last; ++i) {
         for (int j = 0; j < i; ++j) {
-            std::size_t const a = pool[i]->bits.size(), b = pool[j]->bits.size();
-            if (a != b) matrix.set(i, j, hamming_distance(*pool[i], *pool[j]));
-            else if (a == 0) matrix.set(i, j, 0.0);
-            else matrix.set(i, j, static_cast<double>(kernel.differing(words_of(i), words_of(j), words)) / static_cast<double>(a * bits_per_step));
+            bool const row_is_longer = pool[i]->bits.size() >= pool[j]->bits.size();
+            Descriptors const &longer = *pool[row_is_longer ? i : j], &shorter = *pool[row_is_longer ? j : i];
+            std::size_t const length = longer.bits.size(), common = shorter.bits.size();
+            std::size_t count = differences(i, j);
+            // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
+            if (length != common) count = count - (ones(longer, length) - ones(longer, common)) + (length - common) * bits_per_step;
+            matrix.set(i, j, length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step));
         }
     }
 }

@@ -1,6 +1,6 @@
-// Population counts by carry-save adders (Harley and Seal; Mula, Kurz and Lemire 2018): sixteen vectors are added bit by
-// bit into counters of weight 1, 2, 4, 8 and 16, and only the last is counted, once for all sixteen. No instruction for
-// counting bits is needed, which neither baseline x86-64 nor AVX2 nor the AVX-512 of x86-64-v4 has for vectors.
+// Bits counted without an instruction for it, which neither baseline x86-64 nor AVX2 nor the AVX-512 of x86-64-v4 has for
+// vectors: carry-save adders (Harley and Seal; Mula, Kurz and Lemire 2018) turn sixteen words into counters of weight 1, 2,
+// 4, 8 and 16, and only these five are counted. Compiled once per instruction set.
 #include "hamming_kernel.h"
 
 #include <lore/core/lanes.h>
@@ -30,57 +30,81 @@ LORE_INLINE Words byte_counts(Words v) {
     return (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fu;
 }
 
-/// Sum of bytes, a 64-bit number each. Pairs, then quadruples, then all: every field has room.
+/// Sum of the bytes of each word.
 LORE_INLINE Words byte_sums(Words v) {
     v = (v & 0x00ff00ff00ff00ffu) + ((v >> 8) & 0x00ff00ff00ff00ffu);
-    v = (v & 0x0000ffff0000ffffu) + ((v >> 16) & 0x0000ffff0000ffffu);
-    return (v & 0x00000000ffffffffu) + (v >> 32);
+    v = v + (v >> 32);
+    return (v + (v >> 16)) & 0xffffu;
 }
 
-static std::int64_t differing(std::uint64_t const* a, std::uint64_t const* b, int words) {
-    Words ones{}, twos{}, fours{}, eights{}, sixteen_bytes{};
-    int held = 0;
-    auto const next = [&](int k) __attribute__((always_inline)) { return lanes::load<Words>(a + k * width) ^ lanes::load<Words>(b + k * width); };
-    auto const two = [&](int k) __attribute__((always_inline)) {
-        Sum const s = add(ones, next(k), next(k + 1));
+/// Set bits of sixteen words, lane by lane.
+LORE_INLINE Words count_sixteen(Words const (&w)[words_per_plane]) {
+    Words carries[8], ones = w[0];
+    for (int k = 0; k < 7; ++k) {
+        Sum const s = add(ones, w[2 * k + 1], w[2 * k + 2]);
         ones = s.sum;
-        return s.carry;
-    };
-    auto const four = [&](int k) __attribute__((always_inline)) {
-        Words const low = two(k), high = two(k + 2);
-        Sum const s = add(twos, low, high);
-        twos = s.sum;
-        return s.carry;
-    };
-    auto const eight = [&](int k) __attribute__((always_inline)) {
-        Words const low = four(k), high = four(k + 4);
-        Sum const s = add(fours, low, high);
-        fours = s.sum;
-        return s.carry;
-    };
-    Words total{};
-    for (int done = 0; done < words; done += 16 * width, a += 16 * width, b += 16 * width) {
-        Words const low = eight(0), high = eight(8);
-        Sum const s = add(eights, low, high);
-        eights = s.sum;
-        sixteen_bytes += byte_counts(s.carry);
-        if (++held == 31) {   // 31 * 8 < 256
-            total += byte_sums(sixteen_bytes);
-            sixteen_bytes = Words{};
-            held = 0;
-        }
+        carries[k] = s.carry;
     }
-    total += byte_sums(sixteen_bytes);
-    Words const rest = byte_counts(ones) + (byte_counts(twos) << 1) + (byte_counts(fours) << 2) + (byte_counts(eights) << 3);   // <= 120
-    total = (total << 4) + byte_sums(rest);
-    std::int64_t count = 0;
-    for (int lane = 0; lane < width; ++lane) count += static_cast<std::int64_t>(total[lane]);
-    return count;
+    // The last word meets the ones alone.
+    carries[7] = ones & w[15];
+    ones ^= w[15];
+    Words twos = carries[0], higher[4];
+    for (int k = 0; k < 3; ++k) {
+        Sum const s = add(twos, carries[2 * k + 1], carries[2 * k + 2]);
+        twos = s.sum;
+        higher[k] = s.carry;
+    }
+    higher[3] = twos & carries[7];
+    twos ^= carries[7];
+    Sum const low = add(higher[0], higher[1], higher[2]);
+    Words const fours = low.sum ^ higher[3], carry = low.sum & higher[3];
+    Words const eights = low.carry ^ carry, sixteens = low.carry & carry;
+    // At most 8 (1 + 2 + 4 + 8 + 16) = 248 in a byte.
+    return byte_sums(byte_counts(ones) + (byte_counts(twos) << 1) + (byte_counts(fours) << 2) + (byte_counts(eights) << 3) +
+                     (byte_counts(sixteens) << 4));
+}
+
+void differing(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts) {
+    for (int group = 0; group < groups; ++group) {
+        Words words[words_per_plane];
+        for (int k = 0; k < words_per_plane; ++k) words[k] = lanes::load<Words>(others + k * width) ^ plane[k];
+        lanes::store(counts, __builtin_convertvector(count_sixteen(words), Lanes<std::uint32_t, width>));
+        others += words_per_plane * width;
+        counts += width;
+    }
+}
+
+void split(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride) {
+    constexpr int steps = 2 * LORE_LANES;   // in a vector
+    using Steps = Lanes<std::uint16_t, steps>;
+    for (int piece = 0; piece < steps_per_plane / (16 * steps); ++piece) {
+        Steps rows[16];
+        for (int k = 0; k < 16; ++k) rows[k] = lanes::load<Steps>(bits + (piece * 16 + k) * steps);
+        // In each lane, the 16 x 16 bits of 16 steps change rows and columns (Hacker's Delight, 7-3).
+        std::uint16_t mask = 0x00ff;
+        for (int j = 8; j > 0; j >>= 1, mask = static_cast<std::uint16_t>(mask ^ (mask << j))) {
+            for (int k = 0; k < 16; ++k) {
+                if ((k & j) != 0) continue;
+                Steps const swapped = ((rows[k] >> j) ^ rows[k + j]) & mask;
+                rows[k + j] ^= swapped;
+                rows[k] ^= swapped << j;
+            }
+        }
+        for (int channel = 0; channel < bits_per_step; ++channel)
+            lanes::store(planes + channel * stride + piece * (steps / 4), rows[channel]);
+    }
+}
+
+void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
+    using Counts = Lanes<std::uint32_t, LORE_LANES>;
+    int j = 0;
+    for (; j + LORE_LANES <= size; j += LORE_LANES) lanes::store(sums + j, lanes::load<Counts>(sums + j) + lanes::load<Counts>(terms + j));
+    for (; j < size; ++j) sums[j] += terms[j];
 }
 
 } // namespace
 
 extern HammingKernel const hamming;
-HammingKernel const hamming{differing};
+HammingKernel const hamming{width, split, differing, add_terms};
 
 } // namespace lore::LORE_ISA_NAMESPACE

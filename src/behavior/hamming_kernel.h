@@ -1,19 +1,27 @@
 #pragma once
 
+#include <lore/behavior/descriptors.h>
 #include <lore/core/isa.h>
 
 #include <cstdint>
 
 namespace lore {
 
-/// Bits that differ, counted by the widest vectors at hand. Compiled once per instruction set.
-struct HammingKernel {
-    /// How many bits of `words` 64-bit words differ. Precondition: words is a multiple of hamming_block.
-    std::int64_t (*differing)(std::uint64_t const* a, std::uint64_t const* b, int words);
-};
+/// One channel over so many steps is a plane: sixteen words of bits, in an order of steps that is the same for all
+/// planes made by the same instruction set.
+inline constexpr int steps_per_plane = 1024;
+inline constexpr int words_per_plane = steps_per_plane / 64;
 
-/// Words that are counted together: sixteen of the widest vectors.
-inline constexpr int hamming_block = 16 * 8;
+/// What the Hamming distance needs of an instruction set.
+struct HammingKernel {
+    int lanes;   ///< planes in a group: 64-bit words in a native vector
+    /// Turns steps_per_plane words of one bit a channel into one plane a channel, `stride` words apart.
+    void (*split)(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride);
+    /// Differing bits between a plane and each of `groups` * lanes others, which lie [group][word][lane].
+    void (*differing)(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts);
+    /// sums[j] += terms[j]
+    void (*add)(std::uint32_t const* terms, int size, std::uint32_t* sums);
+};
 
 HammingKernel hamming_kernel(Isa);
 
