@@ -3,23 +3,22 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace lore {
 
-namespace isa_baseline { extern HammingKernel const hamming; }
+namespace isa_baseline { HammingKernel hamming(bool by_instruction); }
 #if LORE_ISA_COUNT > 1
-namespace isa_v3 { extern HammingKernel const hamming; }
-namespace isa_v4 { extern HammingKernel const hamming; }
+namespace isa_v3 { HammingKernel hamming(bool by_instruction); }
+namespace isa_v4 { HammingKernel hamming(bool by_instruction); }
 #endif
 
-HammingKernel hamming_kernel(Isa isa) {
+HammingKernel hamming_kernel(Isa isa, bool by_instruction) {
 #if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::hamming;
-    if (isa == Isa::v3) return isa_v3::hamming;
+    if (isa == Isa::v4) return isa_v4::hamming(by_instruction);
+    if (isa == Isa::v3) return isa_v3::hamming(by_instruction);
 #endif
     static_cast<void>(isa);
-    return isa_baseline::hamming;
+    return isa_baseline::hamming(by_instruction);
 }
 
 namespace {
@@ -85,10 +84,14 @@ private:
         std::size_t const members = pool_.size();
         Plane* const planes = reinterpret_cast<Plane*>(planes_.data());   // [channel][member]
         for (std::size_t member = 0; member < members; ++member) {
-            std::array<std::uint16_t, steps_per_plane> steps{};            // zeros after the end
             std::vector<std::uint16_t> const& bits = pool_[member]->bits;
-            if (bits.size() > start) std::memcpy(steps.data(), bits.data() + start, std::min(bits.size() - start, steps.size()) * sizeof steps[0]);
-            kernel_.split(steps.data(), planes[member].data(), static_cast<std::ptrdiff_t>(members * words_per_plane));
+            std::size_t const lived = std::min(start, bits.size()), left = bits.size() - lived;
+            std::uint16_t const* steps = bits.data() + lived;
+            if (left < steps_per_plane) {
+                std::fill(std::copy_n(steps, left, last_steps_.begin()), last_steps_.end(), std::uint16_t{0});
+                steps = last_steps_.data();
+            }
+            kernel_.split(steps, planes[member].data(), static_cast<std::ptrdiff_t>(members * words_per_plane));
         }
         for (int channel = 0; channel < bits_per_step; ++channel) count_channel({planes + static_cast<std::size_t>(channel) * members, members});
     }
@@ -112,7 +115,7 @@ private:
         for (std::size_t k = 0; k < representatives.size(); ++k) {
             if (rows_of_[k].empty()) continue;
             kernel_.differing(planes[representatives[k]].data(), others, static_cast<int>(groups), counts_.data());
-            for (std::size_t j = 0; j < planes.size(); ++j) terms_[j] = counts_[class_of[j]];
+            kernel_.spread(counts_.data(), class_of.data(), static_cast<int>(planes.size()), terms_.data());
             for (std::size_t const i : rows_of_[k]) kernel_.add(terms_.data(), static_cast<int>(i), &sums_[(i - first_) * planes.size()]);
         }
     }
@@ -120,6 +123,7 @@ private:
     std::span<Descriptors const* const> pool_;
     std::size_t first_;
     HammingKernel kernel_;
+    std::array<std::uint16_t, steps_per_plane> last_steps_{};   ///< zeros after a robot's end
     std::vector<CacheLine> planes_, others_;
     PlaneClasses classes_;
     std::vector<std::vector<std::size_t>> rows_of_;   ///< by class

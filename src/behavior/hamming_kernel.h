@@ -19,10 +19,13 @@ struct HammingKernel {
     void (*split)(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride);
     /// Differing bits between a plane and each of `groups` * lanes others, which lie [group][word][lane].
     void (*differing)(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts);
+    /// terms[j] = counts[class_of[j]]
+    void (*spread)(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint32_t* terms);
     /// sums[j] += terms[j]
     void (*add)(std::uint32_t const* terms, int size, std::uint32_t* sums);
 };
 
-HammingKernel hamming_kernel(Isa);
+/// `by_instruction`: counts with AVX-512's instruction for it, where the processor has it.
+HammingKernel hamming_kernel(Isa, bool by_instruction = true);
 
 } // namespace lore
