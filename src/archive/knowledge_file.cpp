@@ -1,6 +1,7 @@
 #include <lore/archive/knowledge_file.h>
 
 #include <lore/archive/container.h>
+#include <lore/archive/knowledge_export.h>
 #include <lore/core/error.h>
 
 #include <algorithm>
@@ -54,15 +55,6 @@ struct Layout {
         end = at + provenance_length;
     }
 };
-
-std::string json_of(Provenance const& provenance) {
-    return nlohmann::ordered_json{{"made_by", provenance.made_by},         {"kind", provenance.kind},
-                                  {"index", provenance.index},             {"sources", provenance.sources},
-                                  {"derivation", provenance.derivation},   {"task", provenance.task},
-                                  {"individuals", provenance.individuals}, {"windows", provenance.windows},
-                                  {"best_balls", provenance.best_balls}}
-        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
 
 Provenance provenance_of(std::string_view text) {
     auto const json = nlohmann::json::parse(text);
@@ -130,9 +122,18 @@ std::string why_invalid(KnowledgeBase::Parts const& parts) {
 
 } // namespace
 
+std::string provenance_json(Provenance const& provenance) {
+    return nlohmann::ordered_json{{"made_by", provenance.made_by},         {"kind", provenance.kind},
+                                  {"index", provenance.index},             {"sources", provenance.sources},
+                                  {"derivation", provenance.derivation},   {"task", provenance.task},
+                                  {"individuals", provenance.individuals}, {"windows", provenance.windows},
+                                  {"best_balls", provenance.best_balls}}
+        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     KnowledgeBase::Parts const& parts = base.parts();
-    std::string const provenance = json_of(parts.provenance);
+    std::string const provenance = provenance_json(parts.provenance);
     auto const features = static_cast<std::uint64_t>(base.size());
     Layout const layout{features, static_cast<std::uint64_t>(parts.config.window_length), provenance.size()};
     Preamble preamble{};

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <lore/knowledge/knowledge_base.h>
+
+#include <string>
+
+namespace lore {
+
+/// Knowledge bases and windows for the long term and for other programs (docs/formats.md has columns and shapes).
+
+/// A row a feature: feature, value, reward_sum, count, then each channel of each step (range_right_0 .. collect_19).
+std::string knowledge_csv(KnowledgeBase const&);
+/// features.npy (n, T, 15), values.npy, reward_sums.npy, counts.npy and provenance.json into a directory, which is made
+/// if need be. Throws Error.
+void export_knowledge(std::string const& directory, KnowledgeBase const&);
+/// What a knowledge base knows of its origin, as its file holds it.
+std::string provenance_json(Provenance const&);
+
+/// Windows from an NPY file of shape (n, T, 15) or (n, 15 T), one after the other as the steps of a trace.
+/// Throws Error if the shape is another, or a binary channel is neither 0 nor 1.
+Trace read_windows(std::string const& path, int window_length);
+
+} // namespace lore

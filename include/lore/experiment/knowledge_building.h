@@ -1,0 +1,29 @@
+#pragma once
+
+#include <lore/experiment/run_directory.h>
+#include <lore/knowledge/index.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace lore {
+
+/// Told how many individuals have been taken up so far.
+using BuildingObserver = std::function<void(std::int64_t individuals)>;
+
+/// The windows of an archived individual are not stored: it is simulated again, which repeats its evaluation exactly.
+/// Both functions throw Error if a repeated evaluation does not deliver the archived number of balls. One thread
+/// simulates a batch while another matches the former one; memory is bounded by a few batches and the base itself.
+///
+/// Of `provenance` the caller sets made_by; kind, index, sources, task and the counts are filled in here.
+
+/// Algorithm 1 over the lineage of `individual`, itself first.
+KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexKind,
+                                   Provenance, BuildingObserver const&);
+/// The same over all individuals ever evaluated, in order of birth ("KB all"). Throws Error if the run did not keep them.
+KnowledgeBase knowledge_of_all(RunDirectory const&, KnowledgeConfig const&, IndexKind, Provenance, BuildingObserver const&);
+
+/// How many individuals the run archived (--archive all).
+std::uint64_t archived_individuals(RunDirectory const&);
+
+} // namespace lore

@@ -1,0 +1,96 @@
+#include <lore/archive/knowledge_export.h>
+
+#include <lore/archive/atomic_file.h>
+#include <lore/archive/npy_file.h>
+#include <lore/core/error.h>
+
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore {
+
+namespace {
+
+/// The 15 channels of one step, in their order.
+std::array<float, channel_count> channels_at(Window const& window, std::size_t step) {
+    std::array<float, channel_count> channels{};
+    for (std::size_t i = 0; i < binary_channels.size(); ++i)
+        channels[static_cast<std::size_t>(binary_channels[i])] = static_cast<float>(window.bits[step] >> i & 1);
+    for (std::size_t i = 0; i < continuous_channels.size(); ++i)
+        channels[static_cast<std::size_t>(continuous_channels[i])] = window.values[step * continuous_count + i];
+    return channels;
+}
+
+} // namespace
+
+std::string knowledge_csv(KnowledgeBase const& base) {
+    std::string csv = "feature,value,reward_sum,count";
+    auto const steps = static_cast<std::size_t>(base.config().window_length);
+    for (std::size_t step = 0; step < steps; ++step)
+        for (std::string_view const channel : channel_names) fmt::format_to(std::back_inserter(csv), ",{}_{}", channel, step);
+    csv += '\n';
+    for (int feature = 0; feature < base.size(); ++feature) {
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{}", feature, base.value(feature), base.reward_sum(feature), base.count(feature));
+        Window const window = base.window(feature);
+        for (std::size_t step = 0; step < steps; ++step)
+            for (float const value : channels_at(window, step)) fmt::format_to(std::back_inserter(csv), ",{}", value);
+        csv += '\n';
+    }
+    return csv;
+}
+
+void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
+    std::error_code failed;
+    std::filesystem::create_directories(directory, failed);
+    if (failed) throw Error(fmt::format("cannot make the directory {}", directory), failed.message(), "Choose another one.");
+    auto const file = [&](char const* name) { return (std::filesystem::path{directory} / name).string(); };
+
+    auto const features = static_cast<std::size_t>(base.size());
+    auto const steps = static_cast<std::size_t>(base.config().window_length);
+    std::vector<float> channels;
+    channels.reserve(features * steps * channel_count);
+    for (int feature = 0; feature < base.size(); ++feature)
+        for (std::size_t step = 0; step < steps; ++step)
+            for (float const value : channels_at(base.window(feature), step)) channels.push_back(value);
+    std::array const shape{features, steps, static_cast<std::size_t>(channel_count)};
+    std::array const one{features};
+    write_npy(file("features.npy"), channels, shape);
+    write_npy(file("values.npy"), base.values(), one);
+    write_npy(file("reward_sums.npy"), base.parts().reward_sums, one);
+    write_npy(file("counts.npy"), base.parts().counts, one);
+    write_file_atomically(file("provenance.json"), provenance_json(base.provenance()) + "\n");
+}
+
+Trace read_windows(std::string const& path, int window_length) {
+    NpyArray const array = read_npy(path);
+    auto const steps = static_cast<std::size_t>(window_length);
+    bool const by_step = array.shape.size() == 3 && array.shape[1] == steps && array.shape[2] == channel_count;
+    bool const in_a_row = array.shape.size() == 2 && array.shape[1] == steps * channel_count;
+    if (!by_step && !in_a_row)
+        throw Error(fmt::format("cannot read windows from {}", path),
+                    fmt::format("its shape is ({0}), not (n, {1}, {2}) or (n, {3})", fmt::join(array.shape, ", "), steps, channel_count, steps * channel_count),
+                    "Reshape it to the knowledge base's window length.");
+    Trace trace;
+    std::size_t const rows = array.values.size() / channel_count;
+    for (std::size_t row = 0; row < rows; ++row) {
+        float const* const channels = array.values.data() + row * channel_count;
+        std::uint16_t word = 0;
+        for (std::size_t i = 0; i < binary_channels.size(); ++i) {
+            float const value = channels[binary_channels[i]];
+            if (value != 0 && value != 1)
+                throw Error(fmt::format("cannot read windows from {}", path),
+                            fmt::format("window {}, step {}: {} is {}, not 0 or 1", row / steps, row % steps,
+                                        channel_names[static_cast<std::size_t>(binary_channels[i])], value),
+                            "Correct it.");
+            if (value == 1) word |= static_cast<std::uint16_t>(1u << i);
+        }
+        trace.bits.push_back(word);
+        for (int const channel : continuous_channels) trace.values.push_back(channels[channel]);
+    }
+    return trace;
+}
+
+} // namespace lore

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <lore/archive/all_individuals.h>
+#include <lore/archive/atomic_file.h>
+#include <lore/archive/lineage_file.h>
+#include <lore/experiment/run_directory.h>
+
+#include <filesystem>
+#include <string>
+
+namespace lore::test {
+
+/// Evolves a handful of individuals for a few short generations in this process, and leaves in `directory` what
+/// lore-evolve would: configuration, lineage, and all individuals.
+inline void write_small_run(std::string const& directory, std::uint64_t seed = 1) {
+    std::filesystem::create_directories(directory);
+    auto const file = [&](char const* name) { return (std::filesystem::path{directory} / name).string(); };
+    ExperimentConfig config;
+    config.episode.steps = 400;
+    config.evolution.population = 8;
+    config.evolution.founders = 16;
+    config.evolution.generations = 6;
+    config.evolution.diversity.period = 2;
+    write_file_atomically(file(run_file::config), to_toml(config));
+    SerialEvaluator evaluator{{load_arena(config.arena, config.task), config.episode, std::nullopt}};
+    AllIndividualsWriter everybody{file(run_file::all_individuals)};
+    EvolutionState const end = evolve(config.evolution, seed, evaluator, {}, [&](GenerationReport const& report) {
+        everybody.add(report);
+        return true;
+    });
+    everybody.flush();
+    write_lineage(file(run_file::lineage), end.population);
+}
+
+} // namespace lore::test
