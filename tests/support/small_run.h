@@ -28,7 +28,7 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
         everybody.add(report);
         return true;
     });
-    everybody.flush();
+    everybody.finish();
     write_lineage(file(run_file::lineage), end.population);
 }
 
