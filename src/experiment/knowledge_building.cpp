@@ -2,15 +2,18 @@
 
 #include <lore/archive/all_individuals.h>
 #include <lore/core/error.h>
+#include <lore/episode/lanes.h>
 #include <lore/evolution/lineage.h>
 #include <lore/knowledge/builder.h>
 
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <exception>
 #include <filesystem>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,15 +24,18 @@ namespace {
 /// Enough to fill the lanes of any processor many times, few enough to keep 100 kB each of several batches.
 constexpr std::size_t batch_size = 128;
 constexpr std::size_t most_batches_waiting = 2;
+constexpr int chunk_steps = 50;
 
-/// An archived individual on its way to be simulated, and then its trace.
-struct Ancestor {
-    IndividualId id;
-    Network network;
-    int balls = 0;
-    Trace trace;
+/// Archived individuals in the order of building, and the traces of their evaluations once simulated; element i of each
+/// belongs together.
+struct Batch {
+    std::vector<IndividualId> ids;
+    std::vector<int> balls;
+    std::vector<Network> networks;
+    std::vector<Trace> traces;   ///< without poses
+
+    std::size_t size() const { return ids.size(); }
 };
-using Batch = std::vector<Ancestor>;
 
 /// Batches from the thread that simulates to the one that matches, in order.
 class BatchQueue {
@@ -80,12 +86,51 @@ private:
 /// Thrown through a reader of the archive once nobody wants more; never leaves this file.
 struct Abandoned {};
 
+/// Gathers the sensorimotor records of episodes that run in lanes.
+class Recorder : public LaneObserver {
+public:
+    explicit Recorder(std::vector<Trace>& traces) : traces_(traces) {}
+
+    void begin(int lane, int episode) override { episodes_[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(episode); }
+
+    void see(LaneChunk const& chunk, std::span<int const> valid) override {
+        auto const width = static_cast<std::size_t>(chunk.width);
+        for (std::size_t lane = 0; lane < valid.size(); ++lane) {
+            auto const steps = static_cast<std::size_t>(valid[lane]);
+            if (steps == 0) continue;
+            Trace& trace = traces_[episodes_[lane]];
+            for (std::size_t step = 0; step < steps; ++step) trace.bits.push_back(chunk.words[step * width + lane]);
+            for (std::size_t i = 0; i < steps * continuous_count; ++i) trace.values.push_back(chunk.values[i * width + lane]);
+        }
+    }
+
+    void rest(int lane, int steps) override {
+        Trace& trace = traces_[episodes_[static_cast<std::size_t>(lane)]];
+        std::size_t const last = trace.values.size() - continuous_count;
+        trace.bits.insert(trace.bits.end(), static_cast<std::size_t>(steps), std::uint16_t{trace.bits.back()});
+        for (int step = 0; step < steps; ++step)
+            for (std::size_t i = 0; i < continuous_count; ++i) trace.values.push_back(trace.values[last + i]);
+    }
+
+    void end(int lane, WorldState const& final_world) override { traces_[episodes_[static_cast<std::size_t>(lane)]].final_world = final_world; }
+
+private:
+    std::vector<Trace>& traces_;
+    std::array<std::size_t, most_lanes> episodes_{};
+};
+
 void simulate(RunDirectory const& run, Batch& batch) {
-    for (Ancestor& ancestor : batch) ancestor.trace = record_episode(run.arena, ancestor.network, run.config.episode);
-    for (Ancestor const& ancestor : batch)
-        if (ancestor.trace.final_world.collected != ancestor.balls)
-            throw Error(fmt::format("individual {} of {} does not repeat", text(ancestor.id), run.path),
-                        fmt::format("{} balls now, {} in its archive", ancestor.trace.final_world.collected, ancestor.balls),
+    batch.traces.resize(batch.size());
+    for (Trace& trace : batch.traces) {
+        trace.bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
+        trace.values.reserve(static_cast<std::size_t>(run.config.episode.steps) * continuous_count);
+    }
+    Recorder recorder{batch.traces};
+    run_in_lanes(run.arena, run.config.episode, batch.networks, chunk_steps, recorder);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+        if (batch.traces[i].final_world.collected != batch.balls[i])
+            throw Error(fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
+                        fmt::format("{} balls now, {} in its archive", batch.traces[i].final_world.collected, batch.balls[i]),
                         "Build with the version of Lore and the arena file that the run was made with.");
 }
 
@@ -100,14 +145,15 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
             Batch batch;
             auto const send = [&] {
                 simulate(run, batch);
-                if (!queue.put(std::move(batch))) throw Abandoned{};
-                batch.clear();
+                if (!queue.put(std::exchange(batch, {}))) throw Abandoned{};
             };
             source([&](IndividualId id, Genome const& genome, int balls) {
-                batch.push_back({id, compile(genome), balls, {}});
+                batch.ids.push_back(id);
+                batch.balls.push_back(balls);
+                batch.networks.push_back(compile(genome));
                 if (batch.size() == batch_size) send();
             });
-            if (!batch.empty()) send();
+            if (batch.size() > 0) send();
             queue.finish(nullptr);
         } catch (Abandoned const&) {
             queue.finish(nullptr);
@@ -122,8 +168,8 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     } const join{queue, simulator};
 
     KnowledgeBuilder builder{config, make_index(kind, config)};
-    for (Batch batch = queue.take(); !batch.empty(); batch = queue.take()) {
-        for (Ancestor const& ancestor : batch) builder.add_individual(windows_of(ancestor.trace, config.window_length), ancestor.balls);
+    for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
+        for (std::size_t i = 0; i < batch.size(); ++i) builder.add_individual(windows_of(batch.traces[i], config.window_length), batch.balls[i]);
         observe(static_cast<std::int64_t>(builder.individuals()));
     }
     provenance.index = name(kind);
