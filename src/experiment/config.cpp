@@ -76,8 +76,6 @@ void check(ExperimentConfig const& config, std::string const& name) {
         throw UsageError(fmt::format("{}: {}", name, key), reason, remedy);
     };
     EvolutionConfig const& evolution = config.evolution;
-    if (evolution.population % 2 != 0)
-        refuse("evolution.population", fmt::format("{} is odd, and tournaments pair the population", evolution.population), "Take an even number.");
     if (evolution.founders < evolution.population)
         refuse("evolution.founders", fmt::format("{} is less than the population of {}", evolution.founders, evolution.population),
                "Take at least as many.");

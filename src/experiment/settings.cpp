@@ -115,7 +115,7 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
 
     EvolutionConfig& evolution = config.evolution;
     d.section("evolution");
-    d.add("population", evolution.population, 2, 100000, "survivors of a generation, and children of one; an even number");
+    d.add("population", evolution.population, 2, 100000, "survivors of a generation, and children of one");
     d.add("founders", evolution.founders, 2, 200000, "random individuals of generation 0; not fewer than population");
     d.add("generations", evolution.generations, 0, any, "length of the run [generations]");
     d.add("ties", evolution.ties, tie_rule, "order among equals in sorts and cuts: random, older or younger first");
