@@ -1,0 +1,120 @@
+#pragma once
+
+#include "support/scratch.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lore {
+
+inline std::string file_text(std::string const& path) {
+    std::ifstream const file{path, std::ios::binary};
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// A program under test, started in a process group of its own with its output in files. What is still alive when the
+/// test leaves is killed.
+class Command {
+public:
+    /// Environment settings ("LORE_ISA=v3") may come before the words of the command.
+    Command(Scratch const& scratch, std::vector<std::string> words) {
+        static int number = 0;
+        out_ = scratch.file("command-" + std::to_string(++number) + ".out");
+        err_ = out_ + ".err";
+        pid_ = ::fork();
+        if (pid_ == 0) become(std::move(words));
+    }
+    Command(Command const&) = delete;
+    Command& operator=(Command const&) = delete;
+    ~Command() {
+        if (!waited_) {
+            ::kill(-pid_, SIGKILL);
+            wait();
+        }
+    }
+
+    pid_t pid() const { return pid_; }
+    void signal(int number) const { ::kill(pid_, number); }
+    bool running() {
+        if (waited_) return false;
+        int status = 0;
+        if (::waitpid(pid_, &status, WNOHANG) == 0) return true;
+        keep(status);
+        return false;
+    }
+    /// The exit code, or 128 + the signal that ended it.
+    int wait() {
+        int status = 0;
+        if (!waited_ && ::waitpid(pid_, &status, 0) == pid_) keep(status);
+        return code_;
+    }
+    /// False if the condition does not become true in ten seconds, or the program ends before.
+    template <class Condition>
+    bool wait_until(Condition const& condition) {
+        for (int i = 0; i < 1000; ++i) {
+            if (condition()) return true;
+            if (!running()) return condition();
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        return false;
+    }
+    std::string out() const { return file_text(out_); }
+    std::string err() const { return file_text(err_); }
+
+private:
+    [[noreturn]] void become(std::vector<std::string> words) const {
+        ::setpgid(0, 0);
+        ::dup2(::open("/dev/null", O_RDONLY), 0);
+        ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 1);
+        ::dup2(::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), 2);
+        ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+        ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+        ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
+        std::vector<char*> arguments;
+        for (std::string& word : words) {
+            std::size_t const equals = word.find('=');
+            if (arguments.empty() && equals != std::string::npos && word.find('/') > equals) ::setenv(word.substr(0, equals).c_str(), word.c_str() + equals + 1, 1);
+            else arguments.push_back(word.data());
+        }
+        arguments.push_back(nullptr);
+        ::execvp(arguments[0], arguments.data());
+        ::_exit(127);
+    }
+    void keep(int status) {
+        waited_ = true;
+        code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+    pid_t pid_ = -1;
+    bool waited_ = false;
+    int code_ = -1;
+    std::string out_, err_;
+};
+
+/// The words of a command, in pieces.
+inline std::vector<std::string> operator+(std::vector<std::string> left, std::vector<std::string> const& right) {
+    left.insert(left.end(), right.begin(), right.end());
+    return left;
+}
+
+inline std::string program(std::string const& name) { return std::string{LORE_BINARY_DIR} + "/bin/" + name; }
+
+/// `mpirun` with a number of ranks that may exceed the cores.
+inline std::vector<std::string> on_ranks(int ranks) {
+    return {"mpirun", "--quiet", "-n", std::to_string(ranks), "--oversubscribe", "--bind-to", "none"};
+}
+
+} // namespace lore

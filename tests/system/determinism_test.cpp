@@ -1,0 +1,139 @@
+// The signature of a run does not depend on ranks, delays, instruction set, or how often it was interrupted.
+
+#include "system/small_run.h"
+
+#include <lore/core/isa.h>
+#include <lore/core/random.h>
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+namespace {
+
+/// A straight run alone: what all others must equal.
+struct Straight {
+    Scratch const& scratch;
+    std::string config, directory, signature;
+    explicit Straight(Scratch const& s, int generations) : scratch(s), config(small_config(s, generations)), directory(s.file("straight")) {
+        Command command{s, evolve(config, directory, {"--seed", "5"})};
+        EXPECT_EQ(command.wait(), 0) << command.err();
+        signature = lore::signature(command);
+        EXPECT_EQ(signature.size(), 16u) << command.out();
+    }
+};
+
+} // namespace
+
+TEST(Determinism, ranks_and_delays_do_not_change_a_run) {
+    Scratch const scratch;
+    Straight const straight{scratch, 20};
+    for (int ranks : {1, 2, 3, 5})
+        for (char const* const delay : {"LORE_TEST_DELAY=0", "LORE_TEST_DELAY=2"}) {
+            std::string const directory = scratch.file(std::to_string(ranks) + delay);
+            Command command{scratch, std::vector<std::string>{delay} + on_ranks(ranks) + evolve(straight.config, directory, {"--seed", "5"})};
+            EXPECT_EQ(command.wait(), 0) << command.err();
+            EXPECT_EQ(signature(command), straight.signature) << ranks << " " << delay;
+            EXPECT_EQ(results(directory), results(straight.directory)) << ranks << " " << delay;
+        }
+}
+
+TEST(Determinism, another_seed_is_another_run) {
+    Scratch const scratch;
+    Straight const straight{scratch, 5};
+    Command command{scratch, evolve(straight.config, scratch.file("other"), {"--seed", "6"})};
+    EXPECT_EQ(command.wait(), 0);
+    EXPECT_NE(signature(command), straight.signature);
+}
+
+TEST(Determinism, every_instruction_set_gives_the_same_bench_signature) {
+    Scratch const scratch;
+    std::string expected;
+    for (Isa isa : {Isa::baseline, Isa::v3, Isa::v4}) {
+        if (isa > detected_isa()) continue;
+        Command command{scratch, {"LORE_ISA=" + std::string{name(isa)}, program("lore-evolve"), "--bench"}};
+        EXPECT_EQ(command.wait(), 0) << command.err();
+        if (expected.empty()) expected = signature(command);
+        EXPECT_EQ(signature(command), expected) << name(isa);
+    }
+    EXPECT_EQ(expected.size(), 16u);
+}
+
+TEST(Determinism, two_runs_at_once_do_not_disturb_each_other) {
+    Scratch const scratch;
+    Straight const straight{scratch, 20};
+    Command first{scratch, on_ranks(2) + evolve(straight.config, scratch.file("a"), {"--seed", "5"})};
+    Command second{scratch, on_ranks(2) + evolve(straight.config, scratch.file("b"), {"--seed", "5"})};
+    EXPECT_EQ(first.wait(), 0) << first.err();
+    EXPECT_EQ(second.wait(), 0) << second.err();
+    EXPECT_EQ(signature(first), straight.signature);
+    EXPECT_EQ(signature(second), straight.signature);
+}
+
+TEST(Resume, after_stops_at_random_moments_ends_with_the_same_bytes) {
+    Scratch const scratch;
+    Straight const straight{scratch, 60};
+    Stream rng{1, Purpose::test};
+    std::string const directory = scratch.file("resumed");
+    int stops = 0, code = 75;
+    std::string last;
+    for (int session = 0; session < 40 && code == 75; ++session) {
+        int const ranks = 1 + static_cast<int>(rng.below(3));
+        auto const launcher = ranks == 1 ? std::vector<std::string>{} : on_ranks(ranks);
+        Command command{scratch, std::vector<std::string>{"LORE_TEST_DELAY=3"} + launcher + evolve(straight.config, directory, {"--seed", "5", "--resume"})};
+        std::string const before = timeless_progress(directory);
+        std::size_t const wanted = before.size() + rng.below(900);
+        bool const reached = command.wait_until([&] { return timeless_progress(directory).size() > wanted; });
+        if (reached && command.running()) command.signal(SIGUSR1);
+        code = command.wait();
+        ASSERT_TRUE(code == 0 || code == 75) << code << command.err();
+        if (code == 75) ++stops;
+        last = signature(command);
+    }
+    EXPECT_GT(stops, 2);
+    EXPECT_EQ(last, straight.signature);
+    EXPECT_EQ(results(directory), results(straight.directory));
+}
+
+TEST(Resume, after_kill_9_at_random_moments_ends_with_the_same_bytes) {
+    Scratch const scratch;
+    Straight const straight{scratch, 60};
+    Stream rng{2, Purpose::test};
+    std::string const directory = scratch.file("killed");
+    int kills = 0, code = -1;
+    std::string last;
+    for (int session = 0; session < 40 && code != 0; ++session) {
+        int const ranks = 1 + static_cast<int>(rng.below(2));
+        auto const launcher = ranks == 1 ? std::vector<std::string>{} : on_ranks(ranks);
+        Command command{scratch, std::vector<std::string>{"LORE_TEST_DELAY=3"} + launcher + evolve(straight.config, directory, {"--seed", "5", "--resume"})};
+        if (kills < 6) {
+            command.wait_until([&] { return exists(directory + "/checkpoint.lore"); });
+            std::this_thread::sleep_for(std::chrono::milliseconds{rng.below(250)});
+            if (command.running()) {
+                ::kill(-command.pid(), SIGKILL);
+                ++kills;
+            }
+        }
+        code = command.wait();
+        last = signature(command);
+    }
+    EXPECT_GT(kills, 2);
+    EXPECT_EQ(code, 0);
+    EXPECT_EQ(last, straight.signature);
+    EXPECT_EQ(results(directory), results(straight.directory));
+}
+
+TEST(Resume, goes_on_beyond_the_end_when_more_generations_are_asked_for) {
+    Scratch const scratch;
+    Straight const straight{scratch, 30};
+    std::string const config = small_config(scratch, 12), directory = scratch.file("longer");
+    Command first{scratch, evolve(config, directory, {"--seed", "5"})};
+    EXPECT_EQ(first.wait(), 0) << first.err();
+    Command second{scratch, {program("lore-evolve"), "--resume", "--out", directory, "--set", "evolution.generations=30", "-q"}};
+    EXPECT_EQ(second.wait(), 0) << second.err();
+    EXPECT_EQ(signature(second), straight.signature);
+    EXPECT_EQ(timeless_progress(directory), timeless_progress(straight.directory));
+    Command third{scratch, {program("lore-evolve"), "--resume", "--out", directory, "-q"}};
+    EXPECT_EQ(third.wait(), 0) << "a finished run has nothing to do: " << third.err();
+    EXPECT_EQ(signature(third), straight.signature);
+}
