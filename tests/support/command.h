@@ -104,6 +104,14 @@ private:
     std::string out_, err_;
 };
 
+/// Of mpirun: the ranks on this machine.
+inline std::vector<pid_t> children_of(pid_t parent) {
+    std::istringstream list{file_text("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children")};
+    std::vector<pid_t> children;
+    for (pid_t child = 0; list >> child;) children.push_back(child);
+    return children;
+}
+
 /// The words of a command, in pieces.
 inline std::vector<std::string> operator+(std::vector<std::string> left, std::vector<std::string> const& right) {
     left.insert(left.end(), right.begin(), right.end());

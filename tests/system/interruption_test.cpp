@@ -104,11 +104,10 @@ TEST(KilledRank, ends_the_whole_job_within_seconds) {
     Scratch const scratch;
     std::string const config = small_config(scratch, endless), directory = scratch.file("run");
     Command command{scratch, on_ranks(2) + evolve(config, directory)};
-    ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
-    // The ranks are mpirun's children.
-    std::string const children = file_text("/proc/" + std::to_string(command.pid()) + "/task/" + std::to_string(command.pid()) + "/children");
-    ASSERT_FALSE(children.empty());
-    ::kill(static_cast<pid_t>(std::stol(children)), SIGKILL);
+    ASSERT_TRUE(command.wait_until([&] { return exists(directory + "/checkpoint.lore"); })) << command.err();
+    auto const ranks = children_of(command.pid());
+    ASSERT_EQ(ranks.size(), 2u);
+    ::kill(ranks.back(), SIGKILL);
     auto const start = std::chrono::steady_clock::now();
     EXPECT_NE(command.wait(), 0);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{10});

@@ -131,7 +131,7 @@ TEST(FullDisk, ends_a_run_with_one_line_and_its_last_checkpoint_serves_on) {
     std::string const disk = scratch.file("disk"), directory = disk + "/run";
     std::filesystem::create_directories(disk);
     if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=400k") != 0) GTEST_SKIP() << "no right to mount a tmpfs here";
-    std::string const config = small_config(scratch, 3000);
+    std::string const config = small_config(scratch, 700);
     for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)}) {
         Command command{scratch, launcher + evolve(config, directory, {"--resume"})};
         EXPECT_EQ(command.wait(), 1);
