@@ -1,6 +1,6 @@
 // The signature of a run does not depend on ranks, delays, instruction set, or how often it was interrupted.
 
-#include "system/small_run.h"
+#include "system/evolve_command.h"
 
 #include <lore/core/isa.h>
 #include <lore/core/random.h>

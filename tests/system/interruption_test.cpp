@@ -1,6 +1,6 @@
 // Signals, time limits, evaluations that fail: a run stops at a checkpoint or says what happened, and never hangs.
 
-#include "system/small_run.h"
+#include "system/evolve_command.h"
 
 #include <lore/archive/genome_file.h>
 

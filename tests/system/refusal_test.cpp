@@ -1,6 +1,6 @@
 // What lore-evolve refuses, in which words, and with which exit code; and that nothing is lost by it.
 
-#include "system/small_run.h"
+#include "system/evolve_command.h"
 
 #include <lore/archive/knowledge_file.h>
 
