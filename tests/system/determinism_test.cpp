@@ -81,7 +81,7 @@ TEST(Resume, after_stops_at_random_moments_ends_with_the_same_bytes) {
         auto const launcher = ranks == 1 ? std::vector<std::string>{} : on_ranks(ranks);
         Command command{scratch, std::vector<std::string>{"LORE_TEST_DELAY=3"} + launcher + evolve(straight.config, directory, {"--seed", "5", "--resume"})};
         std::string const before = timeless_progress(directory);
-        std::size_t const wanted = before.size() + rng.below(900);
+        std::size_t const wanted = before.size() + rng.below(1800);
         bool const reached = command.wait_until([&] { return timeless_progress(directory).size() > wanted; });
         if (reached && command.running()) command.signal(SIGUSR1);
         code = command.wait();
