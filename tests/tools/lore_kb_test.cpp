@@ -1,0 +1,153 @@
+#include "support/program.h"
+#include "support/scratch.h"
+#include "support/small_run.h"
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/archive/npy_file.h>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+using namespace lore;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace {
+
+/// A run of its own, and lore-kb in its directory.
+class LoreKb : public ::testing::Test {
+protected:
+    LoreKb() { test::write_small_run(scratch.file("run")); }
+
+    test::Ran run(std::string const& arguments) {
+        return test::run_program("cd " + scratch.path() + " && " LORE_KB " " + arguments, scratch.path());
+    }
+    void expect_done(std::string const& arguments) {
+        test::Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, 0) << arguments << ": " << ran.errors;
+    }
+    /// One line on stderr, that exit code, and no other output.
+    void expect_refusal(std::string const& arguments, int exit_code, std::string const& saying) {
+        test::Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+        EXPECT_THAT(ran.errors, StartsWith("lore-kb: "));
+        EXPECT_THAT(ran.errors, HasSubstr(saying));
+        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+        EXPECT_EQ(ran.output, "");
+    }
+    std::vector<std::string> lines_of(std::string const& file) {
+        std::ifstream stream{scratch.file(file)};
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(stream, line);) lines.push_back(line);
+        return lines;
+    }
+
+    Scratch scratch;
+};
+
+} // namespace
+
+TEST_F(LoreKb, builds_tells_and_verifies) {
+    expect_done("build run --out kb.lorekb");
+    KnowledgeBase const base = read_knowledge_base(scratch.file("kb.lorekb"));
+    EXPECT_GT(base.size(), 0);
+    EXPECT_THAT(base.provenance().made_by, HasSubstr("lore-kb build run --out kb.lorekb"));
+
+    auto const told = nlohmann::json::parse(run("info kb.lorekb --json").output);
+    EXPECT_EQ(told.at("features"), base.size());
+    EXPECT_EQ(told.at("window_length"), 20);
+    EXPECT_EQ(told.at("provenance").at("kind"), "lineage");
+    EXPECT_THAT(run("info kb.lorekb").output, HasSubstr("features     " + std::to_string(base.size())));
+
+    for (char const* file : {"kb.lorekb", "run/lineage.lore", "run/all.lore", "run/config.toml", "run"})
+        EXPECT_THAT(run(std::string{"verify "} + file).output, HasSubstr("whole")) << file;
+}
+
+TEST_F(LoreKb, builds_from_everybody_and_from_another_individual) {
+    expect_done("build run --all --out all.lorekb -q");
+    EXPECT_EQ(read_knowledge_base(scratch.file("all.lorekb")).provenance().individuals, 64u);
+    expect_done("build run --individual 6.0 --window-length 10 --threshold 1 --out other.lorekb");
+    EXPECT_EQ(read_knowledge_base(scratch.file("other.lorekb")).config(), (KnowledgeConfig{10, 1.0f}));
+    expect_refusal("build run --individual 99.0 --out x.lorekb", 2, "99.0");
+    expect_refusal("build run --individual best-of --out x.lorekb", 2, "GENERATION.SLOT");
+}
+
+TEST_F(LoreKb, finds_every_window_of_the_lineage_in_its_own_base) {
+    expect_done("build run --out kb.lorekb");
+    expect_done("query kb.lorekb --run run --csv found.csv");
+    std::vector<std::string> const lines = lines_of("found.csv");
+    ASSERT_EQ(lines.size(), 1u + 400 / 20);
+    EXPECT_EQ(lines[0], "window,step,feature,distance,value,count");
+    EXPECT_THAT(lines[1], StartsWith("0,0,0,0,"));   // the best-of-run's first window is feature 0
+    for (std::string const& line : lines) EXPECT_EQ(line.find(",-1,"), std::string::npos);
+}
+
+TEST_F(LoreKb, queries_windows_of_an_npy_file) {
+    expect_done("build run --out kb.lorekb");
+    std::vector<float> windows(2 * 300, 0.0f);
+    std::fill(windows.begin() + 300, windows.end(), 1.0f);   // everything at once: surely unknown
+    write_npy(scratch.file("w.npy"), windows, std::array<std::size_t, 2>{2, 300});
+    expect_done("query kb.lorekb --windows w.npy --csv found.csv");
+    EXPECT_EQ(lines_of("found.csv").at(2), "1,20,-1,inf,-1,0");
+    windows[7] = std::numeric_limits<float>::quiet_NaN();
+    write_npy(scratch.file("w.npy"), windows, std::array<std::size_t, 2>{2, 300});
+    expect_refusal("query kb.lorekb --windows w.npy --csv found.csv", 1, "not finite");
+    expect_refusal("query kb.lorekb --csv found.csv", 2, "--windows");
+}
+
+TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
+    expect_done("build run --out kb.lorekb --index flann");
+    EXPECT_EQ(read_knowledge_base(scratch.file("kb.lorekb")).provenance().index, "flann");
+    expect_done("export kb.lorekb --npy exported");
+    expect_done("query kb.lorekb --windows exported/features.npy --csv found.csv --index exact");
+    std::vector<std::string> const lines = lines_of("found.csv");
+    for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_THAT(lines[i], HasSubstr(std::to_string(i - 1) + ",0,"));   // itself, at distance 0
+    expect_done("export kb.lorekb --csv kb.csv");
+    EXPECT_EQ(lines_of("kb.csv").size(), lines.size());
+}
+
+TEST_F(LoreKb, derives_and_multiplies) {
+    expect_done("build run --out kb.lorekb");
+    expect_done("randomize kb.lorekb --seed 3 --out random.lorekb");
+    expect_done("reduce random.lorekb --top 2 --out top.lorekb");
+    KnowledgeBase const top = read_knowledge_base(scratch.file("top.lorekb"));
+    EXPECT_EQ(top.size(), 2);
+    EXPECT_EQ(top.provenance().derivation.size(), 4u);
+    expect_done("reduce kb.lorekb --consensus top.lorekb --out both.lorekb");
+    EXPECT_GE(read_knowledge_base(scratch.file("both.lorekb")).size(), 2);
+    expect_done("product kb.lorekb top.lorekb --run run --csv product.csv");
+    EXPECT_EQ(lines_of("product.csv").at(0), "window,step,product,value_1,value_2");
+    expect_refusal("reduce kb.lorekb --out x.lorekb", 2, "--top");
+    expect_refusal("reduce kb.lorekb --top 3 --min-value 1 --out x.lorekb", 2, "one rule");
+}
+
+TEST_F(LoreKb, refuses_in_one_line_what_it_cannot_do) {
+    expect_refusal("", 2, "subcommand");
+    expect_refusal("build nowhere --out x.lorekb", 1, "nowhere");
+    expect_refusal("build run", 2, "--out");
+    expect_refusal("build run --out missing/x.lorekb", 2, "missing");
+    expect_refusal("build run --index fast --out x.lorekb", 2, "exact and flann");
+    expect_refusal("info run/lineage.lore", 1, "not a knowledge base");
+    expect_refusal("verify stderr.txt", 1, "empty");
+    std::filesystem::remove(scratch.file("run/all.lore"));
+    expect_refusal("build run --all --out x.lorekb", 1, "--archive all");
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("x.lorekb")));
+}
+
+TEST_F(LoreKb, leaves_the_former_file_where_a_build_fails) {
+    expect_done("build run --out kb.lorekb");
+    KnowledgeBase const before = read_knowledge_base(scratch.file("kb.lorekb"));
+    std::filesystem::resize_file(scratch.file("run/lineage.lore"), 100);
+    expect_refusal("build run --out kb.lorekb", 1, "cut");
+    EXPECT_EQ(read_knowledge_base(scratch.file("kb.lorekb")).size(), before.size());
+}
+
+TEST_F(LoreKb, explains_itself) {
+    EXPECT_THAT(run("--help").output, HasSubstr("Examples"));
+    EXPECT_THAT(run("build --help").output, HasSubstr("--individual"));
+    EXPECT_THAT(run("--version").output, StartsWith("lore-kb "));
+}
