@@ -88,17 +88,17 @@ TEST(Config, refuses_values_of_another_type_or_out_of_range) {
     EXPECT_EQ(complaint("[mutation]\nweight_probability = 1.5\n"), "a.toml, line 2: mutation.weight_probability (1.5 is outside 0 .. 1).");
     EXPECT_EQ(complaint("[mutation]\nweight_probability = nan\n"), "a.toml, line 2: mutation.weight_probability (the value is not finite).");
     for (char const* const bad : {"[evolution]\nties = \"none\"\n", "[diversity]\ndistances = []\n", "[diversity]\ndistances = [\"cosine\"]\n",
-                                  "evolution = 3\n", "[evolution]\npopulation = 3\n", "[evolution]\nfounders = 100\n", "[mutation]\neta = 14\n",
+                                  "evolution = 3\n", "[evolution]\nfounders = 100\n", "[mutation]\neta = 14\n",
                                   "[knowledge]\nwindow_length = 5000\n", "[knowledge]\nmatch_threshold = 0\n", "[episode]\nsteps = 0\n",
                                   "name = \n", "[evolution\n", "[evolution]\ngenerations = 99999999999999999999\n"})
         EXPECT_NE(complaint(bad), "") << bad;
-    for (char const* const bad : {"evolution.generations", "=5", "evolution.generations=", "evolution.generations=5\nname='x'", "evolution.population=7"})
+    for (char const* const bad : {"evolution.generations", "=5", "evolution.generations=", "evolution.generations=5\nname='x'"})
         EXPECT_NE(complaint("", {bad}), "") << bad;
 }
 
-TEST(Config, says_that_population_must_be_even_and_where_the_value_came_from) {
-    EXPECT_EQ(complaint("", {"evolution.population=7"}),
-              "a.toml with --set evolution.population=7: evolution.population (7 is odd, and tournaments pair the population). Take an even number.");
+TEST(Config, says_where_a_value_came_from_that_does_not_go_with_the_others) {
+    EXPECT_EQ(complaint("", {"evolution.founders=7"}),
+              "a.toml with --set evolution.founders=7: evolution.founders (7 is less than the population of 200). Take at least as many.");
 }
 
 TEST(Config, looks_for_an_arena_file_beside_itself_and_leaves_names_alone) {
