@@ -1,0 +1,49 @@
+#pragma once
+
+#include <lore/campaign/plan.h>
+
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// How a finished source run ended.
+struct SourceRun {
+    int run = 0;
+    std::uint64_t seed = 0;
+    int balls = 0;   ///< of its best-of-run
+};
+
+/// The source run that a knowledge base comes from.
+struct ChosenRun {
+    std::string knowledge;
+    double wished = 0;   ///< level wished [balls]; meaningless where the campaign names the run
+    int run = 0;
+    std::uint64_t seed = 0;
+    int balls = 0;
+};
+
+/// Which source runs the knowledge bases come from. What is recorded stays, so that runs added later change nothing.
+struct Choice {
+    std::vector<ChosenRun> chosen;
+    std::vector<SourceRun> considered;   ///< all finished source runs
+    std::vector<int> without;            ///< source runs that had failed
+
+    /// Null if nothing was chosen for this knowledge base yet.
+    ChosenRun const* find(std::string_view knowledge) const;
+    /// Precondition: it was chosen.
+    ChosenRun const& of(std::string_view knowledge) const;
+    /// Whether every knowledge base made from a lineage has its run.
+    bool covers(CampaignPlan const&) const;
+};
+
+/// The rule. Runs named by the campaign are taken first; then, in the order of the campaign's file, each knowledge
+/// base gets the run whose best-of-run is nearest to the level wished among those not yet taken; ties: the lowest seed.
+///
+/// What `before` has chosen is kept. Throws Error: too few runs, or a named run is not among them.
+Choice choose_runs(CampaignPlan const&, std::vector<SourceRun> const& finished, std::vector<int> without, Choice const& before = {});
+
+void write_choice(std::string const& path, Choice const&);
+Choice read_choice(std::string const& path);
+
+} // namespace lore

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <lore/campaign/results.h>
+
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// Two treatments compared by their runs' balls at the end: a row of pvalues.csv.
+struct Comparison {
+    std::string a, b;
+    int n_a = 0, n_b = 0;
+    double u = 0;       ///< Mann-Whitney, of `a`
+    double p = 1;       ///< two-sided
+    double p_holm = 1;  ///< corrected over all pairs of this campaign's targets
+    double a12 = 0.5;   ///< probability that a run of `a` beats one of `b`
+    bool exact = false;
+};
+
+/// All pairs of target treatments that have runs, in the report's order.
+std::vector<Comparison> compare_treatments(CampaignPlan const&, Results const&);
+std::string comparisons_csv(std::vector<Comparison> const&);
+
+/// summary.json: what each treatment reached and how they compare, for programs.
+std::string summary_json(CampaignPlan const&, Results const&, std::vector<Comparison> const&);
+
+/// The paper's marks: "**" for p < 1e-3, "*" for p < 1e-2, else "".
+std::string_view significance_mark(double p);
+/// A p-value for people: "0.043", "3.1e-05".
+std::string p_text(double p);
+
+} // namespace lore

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lore {
+
+/// Several runs that differ in their seeds alone: run k (1, 2, ...) has seed first_seed + k - 1.
+struct Treatment {
+    std::string name;                     ///< in paths, files and tables: letters, digits, '_' and '-'
+    std::string label;                    ///< in figures
+    std::string config;                   ///< path of its lore-evolve configuration, as the campaign's file gives it
+    std::vector<std::string> overrides;   ///< "section.key=value", the campaign's generations among them
+    std::string knowledge;                ///< name of the knowledge base for objective RS; empty: none
+    int runs = 30;
+    std::uint64_t first_seed = 1;
+};
+
+enum class KnowledgeKind : std::uint8_t {
+    lineage,   ///< Algorithm 1 over the lineage of a source run's best
+    all,       ///< over everybody evaluated in the source run of `base`
+    random,    ///< `base` with drawn values
+    reduced    ///< a part of `base`
+};
+
+/// A knowledge base to be made.
+struct KnowledgePlan {
+    std::string name;
+    std::string label;
+    KnowledgeKind kind = KnowledgeKind::lineage;
+    double balls = 0;                     ///< lineage: the level wished of the source run's best-of-run [balls]
+    int run = 0;                          ///< lineage: this source run, whatever its balls; 0: choose by `balls`
+    std::string base;                     ///< all, random, reduced: the knowledge base it starts from
+    std::uint64_t seed = 1;               ///< random: of the draw
+    std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
+    std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
+};
+
+/// Which knowledge bases the pictures of trajectories show (paper, figures 5 and 6).
+struct FigurePlan {
+    std::string trajectory;                ///< the knowledge base whose source run's best is shown; empty: no pictures
+    std::vector<std::string> figure5;      ///< one panel each
+    std::vector<std::string> figure6;      ///< the product of all of these
+};
+
+/// How the campaign asks a batch system for its share.
+struct ClusterPlan {
+    std::string time_limit = "04:00:00";   ///< of a task; one that needs longer is queued again at a checkpoint
+    int warning_seconds = 120;             ///< the task is told so long before its limit
+    int concurrent = 100;                  ///< most tasks of one array at a time
+    std::vector<std::string> options;      ///< further #SBATCH options
+};
+
+/// A campaign: runs on a source task, knowledge bases from some of them, runs on the target task with and without.
+/// Data, so that another campaign needs only another file.
+struct CampaignPlan {
+    std::string path;                        ///< of its file
+    std::string directory;                   ///< in which the file lies; relative paths start there
+    std::string title;
+    Treatment source;
+    std::vector<KnowledgePlan> knowledge;    ///< each after those it is made from
+    std::vector<Treatment> targets;          ///< in the order in which they are run
+    std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
+    FigurePlan figures;
+    ClusterPlan cluster;
+
+    Treatment const& treatment(std::string_view name) const;           ///< precondition: there is one
+    KnowledgePlan const& knowledge_base(std::string_view name) const;  ///< precondition: there is one
+    std::string config_path(Treatment const&) const;                   ///< usable from the working directory
+};
+
+/// Reads jobs/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
+/// Throws UsageError: syntax, unknown key, a name used twice or not defined, a value out of range.
+CampaignPlan read_campaign(std::string const& path);
+
+} // namespace lore

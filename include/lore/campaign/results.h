@@ -1,0 +1,87 @@
+#pragma once
+
+#include <lore/campaign/steps.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// A finished run: a row of final.csv (treatment to balls) and of runs.csv.
+struct RunRow {
+    std::string treatment;
+    int run = 0;
+    std::uint64_t seed = 0;
+    int balls = 0;                 ///< of its best-of-run
+    int generations = 0;
+    std::uint64_t evaluations = 0;
+    std::string signature;
+    std::string version;           ///< of Lore, with its commit
+};
+
+/// The mean best-of-run of a treatment's finished runs at one generation: a row of curves.csv.
+struct CurveRow {
+    std::string treatment;
+    int generation = 0;
+    int runs = 0;
+    double mean = 0;               ///< [balls]
+    double low = 0, high = 0;      ///< 95 % percentile bootstrap band of the mean
+};
+
+/// A knowledge base: a row of kbs.csv.
+struct KnowledgeRow {
+    std::string knowledge;
+    std::string kind;              ///< "lineage", "all", "random", "reduced"
+    int source_run = 0;
+    std::uint64_t seed = 0;        ///< of that run
+    int balls = 0;                 ///< of its best-of-run
+    std::uint64_t individuals = 0; ///< whose windows were read: the lineage's length
+    std::uint64_t windows = 0;
+    int features = 0;
+    double least_value = 0, greatest_value = 0;
+};
+
+/// Where the robot is and what has happened at the beginning of a step: a row of replay.csv.
+struct ReplayStep {
+    float x = 0, y = 0, theta = 0;
+    bool carrying = false, door_open = false, switch_on = false;
+    unsigned balls_mask = 0;
+    int collected = 0;
+};
+
+/// The best-of-run of one run, step by step.
+struct Replay {
+    std::string step;              ///< the campaign's name of the run, "source/007"
+    std::vector<ReplayStep> steps;
+};
+
+/// What a knowledge base, or the product of several, says about the windows of the shown trajectory: values.csv.
+struct PanelValues {
+    std::string figure;            ///< "figure5" or "figure6"
+    std::string knowledge;         ///< names joined by '*'
+    std::vector<double> values;    ///< per window; -1 where a single base, 0 where a product does not find it
+};
+
+/// All that the report shows. It is made from these rows alone, so that it can be made again from the CSV files long
+/// after the runs are gone.
+struct Results {
+    std::vector<RunRow> runs;
+    std::vector<CurveRow> curves;
+    std::vector<KnowledgeRow> bases;
+    std::vector<Replay> replays;
+    std::vector<PanelValues> panels;
+
+    std::vector<double> final_balls(std::string_view treatment) const;
+};
+
+/// Gathers the finished runs, knowledge bases and trajectories of a campaign from its directory. Throws Error for a
+/// damaged file.
+Results collect_results(CampaignPlan const&, CampaignDirectory const&);
+
+/// final.csv, runs.csv, curves.csv, kbs.csv, replay.csv, values.csv (docs/formats.md).
+void write_results(CampaignDirectory const&, Results const&);
+/// Needs final.csv and curves.csv; what the others would tell is left out where they are missing. Throws Error.
+Results read_results(CampaignDirectory const&);
+
+} // namespace lore

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <lore/campaign/steps.h>
+
+#include <optional>
+#include <string>
+
+namespace lore {
+
+enum class StepStatus : std::uint8_t { done, running, interrupted, failed, missing };
+std::string_view name(StepStatus);
+
+/// How far a step has come, read from disk alone: nothing else is kept, so nothing can get out of step.
+struct StepState {
+    StepStatus status = StepStatus::missing;
+    std::string reason;       ///< for people: "at generation 1200 of 4000", "exit code 1: ..."
+    int generation = 0;       ///< of a run, as progress.csv says
+    int generations = 0;      ///< that it is to reach
+    int best_balls = 0;
+    double seconds = 0;       ///< of wall time spent on it
+};
+
+/// A run is done when its manifest says so, and failed if it was made with other settings than planned. A knowledge base
+/// is done when its file is there, since lore-kb writes all or nothing. `locks`: whoever holds the step's lock asks
+/// without looking at it, or would see itself at work.
+enum class Locks : std::uint8_t { looked_at, ignored };
+StepState state_of(CampaignPlan const&, CampaignDirectory const&, Step const&, Locks locks = Locks::looked_at);
+
+/// The recorded choice of source runs, or nothing.
+std::optional<Choice> recorded_choice(CampaignDirectory const&);
+
+/// How the last attempt at a step failed; kept until the next succeeds.
+struct FailureRecord {
+    int attempts = 0;
+    std::string how;                     ///< "exit code 1", "signal 9"
+    std::vector<std::string> log_tail;   ///< last lines of its log
+};
+void write_failure(CampaignDirectory const&, Step const&, FailureRecord const&);
+std::optional<FailureRecord> read_failure(CampaignDirectory const&, Step const&);
+void clear_failure(CampaignDirectory const&, Step const&);
+
+/// The right to work on a step: one process of all that share the directory has it at a time.
+///
+/// A lock of the open file (Linux's OFD locks), so that a started program can inherit it: if lore-campaign is killed
+/// while the program goes on, the step stays taken until that ends too.
+class StepLock {
+public:
+    /// Nothing if somebody else has it. Throws Error where the file cannot be made.
+    static std::optional<StepLock> take(std::string const& path);
+    static bool is_taken(std::string const& path);
+    StepLock(StepLock&&) noexcept;
+    StepLock& operator=(StepLock&&) noexcept;
+    ~StepLock();
+    int descriptor() const { return descriptor_; }
+
+private:
+    explicit StepLock(int descriptor) : descriptor_(descriptor) {}
+    int descriptor_;
+};
+
+/// The last complete line of a run's progress.csv; all 0 if there is none.
+struct RunProgress { int generation = 0; int best_balls = 0; double seconds = 0; };
+RunProgress last_progress(std::string const& run_directory);
+
+} // namespace lore

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <lore/campaign/plan.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+enum class StepKind : std::uint8_t {
+    evolve,   ///< one run of lore-evolve
+    choose,   ///< decides which source runs the knowledge bases come from
+    archive,  ///< a source run once more, keeping everybody
+    build     ///< one knowledge base
+};
+
+/// One piece of work whose outcome is on disk. Names are unique: "source/007", "choose", "archive/kb1_all",
+/// "knowledge/kb1", "kb1/012".
+struct Step {
+    std::string name;
+    StepKind kind = StepKind::evolve;
+    std::string group;               ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
+    std::string subject;             ///< of the treatment or the knowledge base
+    int run = 0;                     ///< evolve: 1, 2, ...
+    std::vector<std::string> after;  ///< groups that must be finished
+};
+
+/// All of a campaign, in the order in which it is worked through; every step after those that it waits for.
+std::vector<Step> steps_of(CampaignPlan const&);
+/// Throws UsageError for a name that is neither a step nor a group.
+std::vector<Step> steps_named(std::vector<Step> const&, std::vector<std::string> const& names);
+
+/// Where a campaign keeps what.
+class CampaignDirectory {
+public:
+    explicit CampaignDirectory(std::string path) : path_(std::move(path)) {}
+    std::string const& path() const { return path_; }
+    std::string file(std::string_view name) const;
+    std::string run(std::string_view step) const;         ///< runs/source/007
+    std::string knowledge(std::string_view name) const;   ///< knowledge/kb1.lorekb
+    std::string choice() const;                           ///< knowledge/choice.json
+    std::string log(std::string_view step) const;         ///< logs/source-007.log
+    std::string lock(std::string_view step) const;        ///< steps/source-007.lock
+    std::string record(std::string_view step) const;      ///< steps/source-007.json: how the last attempt failed
+
+private:
+    std::string path_;
+};
+
+/// "source/007".
+std::string run_step(std::string_view treatment, int run);
+std::uint64_t seed_of(Treatment const&, int run);
+
+struct Choice;
+
+/// How the programs are called.
+struct Launcher {
+    std::string programs;   ///< directory of lore-evolve and lore-kb; empty: found by the shell's rules
+    int ranks = 1;          ///< of one run; 1: started without mpirun
+    std::string launch = "mpirun -n {ranks} --bind-to none";   ///< put in front of a run of several ranks
+};
+
+/// The step's command line. `choice` is needed by steps that depend on "choose"; without one they name their source
+/// run "?". Not for StepKind::choose.
+std::vector<std::string> command_of(CampaignPlan const&, CampaignDirectory const&, Launcher const&, Step const&,
+                                    Choice const* choice);
+/// As a shell takes it.
+std::string shell_text(std::vector<std::string> const& command);
+
+} // namespace lore

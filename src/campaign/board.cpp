@@ -1,0 +1,64 @@
+#include "board.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace lore {
+
+namespace {
+
+struct TerminalSize { std::size_t rows = 24, columns = 80; };
+
+TerminalSize terminal_size() {
+    winsize size{};
+    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0) return {};
+    return {size.ws_row, size.ws_col};
+}
+
+} // namespace
+
+Board::Board(bool quiet) : quiet_(quiet), live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
+Board::~Board() { erase(); }
+
+void Board::erase() {
+    if (lines_.empty()) return;
+    std::fprintf(stderr, "\r\033[%zuA\033[J", lines_.size());
+    lines_.clear();
+}
+
+void Board::announce(std::string const& line) {
+    if (!quiet_) complain(line);
+}
+
+void Board::complain(std::string const& line) {
+    auto kept = lines_;
+    erase();
+    std::fprintf(stderr, "%s\n", line.c_str());
+    draw(std::move(kept));
+    std::fflush(stderr);
+}
+
+void Board::draw(std::vector<std::string> lines) {
+    if (!live_ || lines.empty()) return;
+    erase();
+    TerminalSize const size = terminal_size();
+    // The last line tells of the whole: it stays when there are more runs than rows.
+    if (lines.size() > size.rows - 1) lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(size.rows - 1));
+    for (std::string& line : lines) {
+        if (line.size() > size.columns - 1) line.resize(size.columns - 1);
+        std::fprintf(stderr, "%s\n", line.c_str());
+    }
+    std::fflush(stderr);
+    lines_ = std::move(lines);
+}
+
+std::string bar(double share, int width) {
+    int const full = static_cast<int>(std::clamp(share, 0.0, 1.0) * width);
+    return fmt::format("[{:#<{}}{:.<{}}]", "", full, "", width - full);
+}
+
+} // namespace lore

@@ -1,0 +1,296 @@
+#include <lore/campaign/chart.h>
+
+#include <lore/core/error.h>
+#include <lore/experiment/config.h>
+#include <lore/figure/svg.h>
+#include <lore/figure/trajectory.h>
+#include <lore/statistics/quantiles.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+constexpr std::string_view ink = "#222222", pale = "#dddddd", source_color = "#777777";
+
+/// The plotting area and its scales; both axes start at 0.
+struct Frame {
+    double left, right, top, bottom;   ///< pixels
+    double x_most, y_most;             ///< data
+    double x(double value) const { return left + (right - left) * value / x_most; }
+    double y(double value) const { return bottom - (bottom - top) * value / y_most; }
+};
+
+/// 1, 2 or 5 times a power of ten, so that about `wanted` ticks fit; whole, since balls and generations are counted.
+double tick_step(double most, int wanted) {
+    double const rough = most / wanted, power = std::pow(10.0, std::floor(std::log10(rough)));
+    for (double const factor : {1.0, 2.0, 5.0})
+        if (factor * power >= rough * 0.999) return std::max(1.0, factor * power);
+    return std::max(1.0, 10 * power);
+}
+
+void draw_ball_axis(SvgDocument& svg, Frame const& frame, std::string_view what) {
+    double const step = tick_step(frame.y_most, 8);
+    for (double tick = 0; tick <= frame.y_most + 1e-9; tick += step) {
+        if (tick > 0) svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
+        svg.text({frame.left - 8, frame.y(tick) + 4}, fmt::format("{}", tick), {.anchor = Anchor::end});
+    }
+    svg.line({frame.left, frame.top}, {frame.left, frame.bottom}, {.stroke = ink});
+    svg.line({frame.left, frame.bottom}, {frame.right, frame.bottom}, {.stroke = ink});
+    svg.text({22, (frame.top + frame.bottom) / 2}, what, {.anchor = Anchor::middle, .rotation = -90});
+}
+
+struct Curve {
+    std::string label;
+    std::string_view color;
+    bool dashed = false;
+    std::vector<CurveRow const*> rows;
+    double end() const { return rows.back()->generation; }
+};
+
+/// Moves labels apart, keeping their order, as little as two sweeps can.
+std::vector<double> spread(std::vector<double> const& wished, double gap, double top, double bottom) {
+    std::vector<std::size_t> order(wished.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wished[a] < wished[b]; });
+    std::vector<double> placed = wished;
+    double least = top;
+    for (std::size_t const i : order) { placed[i] = std::max(placed[i], least); least = placed[i] + gap; }
+    double most = bottom;
+    for (auto i = order.rbegin(); i != order.rend(); ++i) { placed[*i] = std::min(placed[*i], most); most = placed[*i] - gap; }
+    return placed;
+}
+
+/// A bracket over two boxes; brackets on one level do not overlap.
+struct Bracket {
+    std::size_t from, to;
+    std::string_view mark;
+    std::size_t level = 0;
+};
+
+/// From the narrowest to the widest, each on the lowest level that is free over all it spans.
+std::size_t stack(std::vector<Bracket>& brackets) {
+    std::stable_sort(brackets.begin(), brackets.end(), [](Bracket const& a, Bracket const& b) { return a.to - a.from < b.to - b.from; });
+    std::size_t levels = 0;
+    for (auto current = brackets.begin(); current != brackets.end(); ++current) {
+        auto const taken = [&] {
+            return std::any_of(brackets.begin(), current, [&](Bracket const& b) {
+                return b.level == current->level && b.from < current->to && current->from < b.to;
+            });
+        };
+        while (taken()) ++current->level;
+        levels = std::max(levels, current->level + 1);
+    }
+    return levels;
+}
+
+void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls, std::string_view color) {
+    constexpr double half = 26, whisker = 13;
+    FiveNumbers const five = five_numbers(balls);
+    for (auto const& [end, box] : {std::pair{five.low_whisker, five.lower_quartile}, std::pair{five.high_whisker, five.upper_quartile}}) {
+        svg.line({x, frame.y(end)}, {x, frame.y(box)}, {.stroke = ink});
+        svg.line({x - whisker, frame.y(end)}, {x + whisker, frame.y(end)}, {.stroke = ink});
+    }
+    double const top = frame.y(five.upper_quartile), height = frame.y(five.lower_quartile) - top;
+    svg.rect({x - half, top}, 2 * half, height, {.fill = color, .opacity = 0.18});
+    svg.rect({x - half, top}, 2 * half, height, {.stroke = ink});
+    svg.line({x - half, frame.y(five.median)}, {x + half, frame.y(five.median)}, {.stroke = ink, .width = 2.4});
+    // Balls are whole numbers: runs with equal balls stand side by side.
+    std::map<double, int> of_value, drawn;
+    for (double const value : balls) ++of_value[value];
+    for (double const value : balls) {
+        double const spacing = std::min(6.0, 76.0 / of_value[value]);
+        double const offset = spacing * (drawn[value]++ - (of_value[value] - 1) / 2.0);
+        svg.circle({x + offset, frame.y(value)}, 2.6, {.fill = color, .opacity = 0.75});
+    }
+}
+
+/// Width or height of an SVG document.
+double size_of(std::string const& svg, std::string_view which) {
+    std::string const key = fmt::format(" {}=\"", which);
+    std::size_t const at = svg.find(key) + key.size();
+    double value = 0;
+    std::from_chars(svg.data() + at, svg.data() + svg.size(), value);
+    return value;
+}
+
+} // namespace
+
+std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
+    std::string label;
+    while (!names.empty()) {
+        std::string_view const name = names.substr(0, names.find('*'));
+        names.remove_prefix(std::min(names.size(), name.size() + 1));
+        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
+        if (!label.empty()) label += " \xc3\x97 ";
+        label += planned == plan.knowledge.end() ? std::string{name} : planned->label;
+    }
+    return label;
+}
+
+std::string_view treatment_color(std::size_t i) {
+    static constexpr std::array<std::string_view, 7> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7"};
+    return okabe_ito[i % okabe_ito.size()];
+}
+
+std::string draw_curves(CampaignPlan const& plan, Results const& results) {
+    std::vector<Curve> curves;
+    auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
+        Curve curve{treatment.label, color, dashed, {}};
+        for (CurveRow const& row : results.curves) if (row.treatment == treatment.name) curve.rows.push_back(&row);
+        if (curve.rows.empty()) return;
+        curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
+        curves.push_back(std::move(curve));
+    };
+    add(plan.source, source_color, true);
+    for (std::size_t i = 0; i < plan.report_order.size(); ++i) add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
+
+    Frame frame{64, 640, 24, 420, 1, 1};
+    for (Curve const& curve : curves) {
+        frame.x_most = std::max(frame.x_most, curve.end());
+        for (CurveRow const* row : curve.rows) frame.y_most = std::max(frame.y_most, row->high);
+    }
+    frame.y_most = std::ceil(frame.y_most);
+
+    SvgDocument svg{840, 476, "Mean number of collected balls of the best-of-run by generation"};
+    draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
+    double const step = tick_step(frame.x_most, 8);
+    for (double tick = 0; tick <= frame.x_most + 1e-9; tick += step) {
+        svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
+        svg.text({frame.x(tick), frame.bottom + 20}, fmt::format("{}", tick), {.anchor = Anchor::middle});
+    }
+    svg.text({(frame.left + frame.right) / 2, frame.bottom + 44}, "generation", {.anchor = Anchor::middle});
+
+    for (Curve const& curve : curves) {
+        std::vector<SvgPoint> band;
+        for (CurveRow const* row : curve.rows) band.push_back({frame.x(row->generation), frame.y(row->high)});
+        for (auto row = curve.rows.rbegin(); row != curve.rows.rend(); ++row) band.push_back({frame.x((*row)->generation), frame.y((*row)->low)});
+        svg.polygon(band, {.fill = curve.color, .opacity = 0.12});
+    }
+    std::vector<double> ends;
+    for (Curve const& curve : curves) {
+        std::vector<SvgPoint> line;
+        for (CurveRow const* row : curve.rows) line.push_back({frame.x(row->generation), frame.y(row->mean)});
+        svg.polyline(line, {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""});
+        ends.push_back(line.back().y);
+    }
+    // The lines are named where they end; a thin one leads to a name that had to move.
+    std::vector<double> const placed = spread(ends, 16, frame.top + 4, frame.bottom);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        std::array<SvgPoint, 3> const lead{{{frame.x(curves[i].end()) + 2, ends[i]}, {frame.right + 14, placed[i]}, {frame.right + 20, placed[i]}}};
+        svg.polyline(lead, {.stroke = curves[i].color, .width = 0.8});
+        svg.text({frame.right + 24, placed[i] + 4}, curves[i].label);
+    }
+    if (curves.empty()) svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
+    return std::move(svg).finish();
+}
+
+std::string draw_boxplots(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+    struct Box { std::string name, label; std::string_view color; std::vector<double> balls; };
+    std::vector<Box> boxes;
+    double highest = 1;
+    for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
+        Treatment const& treatment = plan.treatment(plan.report_order[i]);
+        auto balls = results.final_balls(treatment.name);
+        if (balls.empty()) continue;
+        highest = std::max(highest, *std::max_element(balls.begin(), balls.end()));
+        boxes.push_back({treatment.name, treatment.label, treatment_color(i), std::move(balls)});
+    }
+    auto const place = [&](std::string const& name) {
+        return static_cast<std::size_t>(std::find_if(boxes.begin(), boxes.end(), [&](Box const& b) { return b.name == name; }) - boxes.begin());
+    };
+    std::vector<Bracket> brackets;
+    for (Comparison const& c : comparisons) {
+        if (significance_mark(c.p).empty()) continue;
+        auto const [from, to] = std::minmax({place(c.a), place(c.b)});
+        brackets.push_back({from, to, significance_mark(c.p)});
+    }
+    double const bracket_height = 17, top = 30 + bracket_height * static_cast<double>(stack(brackets));
+
+    constexpr double slot = 98;
+    double const right = 64 + slot * static_cast<double>(std::max<std::size_t>(boxes.size(), 3));
+    Frame const frame{64, right, top, top + 340, 1, highest + 0.4};   // room for the highest points' radius
+    SvgDocument svg{right + 20, frame.bottom + 56, "Collected balls of the best-of-run at the last generation"};
+    draw_ball_axis(svg, frame, "collected balls (best-of-run)");
+    auto const centre = [&](std::size_t i) { return frame.left + slot * (static_cast<double>(i) + 0.5); };
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        draw_box(svg, frame, centre(i), boxes[i].balls, boxes[i].color);
+        svg.text({centre(i), frame.bottom + 20}, boxes[i].label, {.anchor = Anchor::middle});
+        svg.text({centre(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()), {.anchor = Anchor::middle, .size = 10});
+    }
+    for (Bracket const& bracket : brackets) {
+        double const y = frame.top - 12 - bracket_height * static_cast<double>(bracket.level), from = centre(bracket.from) + 5,
+                     to = centre(bracket.to) - 5, middle = (from + to) / 2;
+        std::array<SvgPoint, 4> const shape{{{from, y + 4}, {from, y}, {to, y}, {to, y + 4}}};
+        svg.polyline(shape, {.stroke = ink, .width = 0.8});
+        svg.rect({middle - 9, y - 4}, 18, 8, {.fill = "#ffffff"});
+        svg.text({middle, y + 6}, bracket.mark, {.anchor = Anchor::middle, .size = 14});
+    }
+    if (boxes.empty()) svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
+    return std::move(svg).finish();
+}
+
+std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
+    if (results.replays.empty()) return "";
+    Replay const& replay = results.replays.front();
+    ExperimentConfig const config = read_config(plan.config_path(plan.source), plan.source.overrides);
+    Arena const arena = load_arena(config.arena, config.task);
+    std::vector<Pose> poses;
+    std::vector<std::uint8_t> carrying;
+    for (ReplayStep const& step : replay.steps) {
+        poses.push_back({step.x, step.y, step.theta});
+        carrying.push_back(step.carrying ? 1 : 0);
+    }
+
+    std::vector<std::string> panels;
+    for (PanelValues const& panel : results.panels) {
+        if (panel.figure != figure || panel.values.empty()) continue;
+        bool const product = panel.knowledge.find('*') != std::string::npos;
+        TrajectoryPicture picture;
+        picture.title = fmt::format("{}{}", figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(panels.size()))) : "product of the values from ",
+                                    knowledge_label(plan, panel.knowledge));
+        picture.poses = poses;
+        picture.carrying = carrying;
+        picture.window_length = static_cast<int>((poses.size() + panel.values.size() - 1) / panel.values.size());
+        picture.values = panel.values;
+        // A window without value: -1 from a single base, 0 where a product lacks a factor.
+        for (double& value : picture.values)
+            if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
+        picture.lowest = 0;
+        picture.highest = std::max(1e-9, *std::max_element(panel.values.begin(), panel.values.end()));
+        picture.not_found = product ? 0 : -1;
+        picture.value_label = product ? "product of the values" : "value (balls)";
+        panels.push_back(draw_trajectory(arena, picture));
+    }
+    if (panels.size() < 2) return panels.empty() ? "" : panels.front();
+
+    double width = 0, height = 0;
+    std::string body;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        std::string const panel = with_own_ids(panels[i], fmt::format("panel{}-", i + 1));
+        width = std::max(width, size_of(panel, "width"));
+        // Nested documents are placed by their own x and y.
+        std::size_t const start = panel.find("<svg") + 4;
+        body += fmt::format("<svg x=\"0\" y=\"{}\"{}", height, panel.substr(start));
+        height += size_of(panel, "height");
+    }
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n", width, height, body);
+}
+
+std::string with_own_ids(std::string svg, std::string_view prefix) {
+    for (std::string_view const before : {" id=\"", "url(#", "href=\"#", "aria-labelledby=\""}) {
+        for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + before.size()))
+            svg.insert(at + before.size(), prefix);
+    }
+    return svg;
+}
+
+} // namespace lore

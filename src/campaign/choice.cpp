@@ -1,0 +1,112 @@
+#include <lore/campaign/choice.h>
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fstream>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace lore {
+
+namespace {
+
+constexpr char rule[] = "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
+                        "level wished; ties: the lowest seed; runs that the campaign names are taken first";
+
+ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
+    return {knowledge.name, knowledge.balls, run.run, run.seed, run.balls};
+}
+
+} // namespace
+
+ChosenRun const* Choice::find(std::string_view knowledge) const {
+    for (ChosenRun const& entry : chosen)
+        if (entry.knowledge == knowledge) return &entry;
+    return nullptr;
+}
+
+ChosenRun const& Choice::of(std::string_view knowledge) const {
+    ChosenRun const* const entry = find(knowledge);
+    assert(entry != nullptr);
+    return *entry;
+}
+
+bool Choice::covers(CampaignPlan const& plan) const {
+    return std::all_of(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& knowledge) {
+        return knowledge.kind != KnowledgeKind::lineage || find(knowledge.name) != nullptr;
+    });
+}
+
+Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finished, std::vector<int> without, Choice const& before) {
+    Choice choice;
+    choice.chosen = before.chosen;
+    choice.considered = finished;
+    choice.without = std::move(without);
+    std::vector<SourceRun> free = finished;
+    std::erase_if(free, [&](SourceRun const& run) {
+        return std::any_of(before.chosen.begin(), before.chosen.end(), [&](ChosenRun const& taken) { return taken.run == run.run; });
+    });
+    auto take = [&](std::vector<SourceRun>::iterator at) { SourceRun const run = *at; free.erase(at); return run; };
+
+    std::vector<KnowledgePlan const*> wishes;
+    for (KnowledgePlan const& knowledge : plan.knowledge)
+        if (knowledge.kind == KnowledgeKind::lineage && before.find(knowledge.name) == nullptr) wishes.push_back(&knowledge);
+
+    for (KnowledgePlan const* wish : wishes) {
+        if (wish->run == 0) continue;
+        auto const named = std::find_if(free.begin(), free.end(), [&](SourceRun const& r) { return r.run == wish->run; });
+        if (named == free.end())
+            throw Error(fmt::format("cannot take source run {} for '{}'", wish->run, wish->name),
+                        "it is not finished, or serves another knowledge base", "Look at 'lore-campaign status'.");
+        choice.chosen.push_back(chosen_from(*wish, take(named)));
+    }
+    for (KnowledgePlan const* wish : wishes) {
+        if (wish->run != 0) continue;
+        auto const nearest = std::min_element(free.begin(), free.end(), [&](SourceRun const& a, SourceRun const& b) {
+            return std::tuple{std::abs(a.balls - wish->balls), a.seed} < std::tuple{std::abs(b.balls - wish->balls), b.seed};
+        });
+        if (nearest == free.end())
+            throw Error(fmt::format("no source run is left for '{}'", wish->name),
+                        fmt::format("{} runs are finished, {} knowledge bases need one each", finished.size(), wishes.size()),
+                        "Look at 'lore-campaign status'.");
+        choice.chosen.push_back(chosen_from(*wish, take(nearest)));
+    }
+    return choice;
+}
+
+void write_choice(std::string const& path, Choice const& choice) {
+    nlohmann::ordered_json document;
+    document["rule"] = rule;
+    document["chosen"] = nlohmann::ordered_json::array();
+    for (ChosenRun const& entry : choice.chosen)
+        document["chosen"].push_back({{"knowledge", entry.knowledge}, {"wished", entry.wished}, {"run", entry.run},
+                                      {"seed", entry.seed}, {"balls", entry.balls}});
+    document["considered"] = nlohmann::ordered_json::array();
+    for (SourceRun const& run : choice.considered)
+        document["considered"].push_back({{"run", run.run}, {"seed", run.seed}, {"balls", run.balls}});
+    document["without"] = choice.without;
+    write_file_atomically(path, std::string_view{document.dump(2) + "\n"});
+}
+
+Choice read_choice(std::string const& path) {
+    try {
+        std::ifstream file{path};
+        auto const document = nlohmann::json::parse(file);
+        Choice choice;
+        for (auto const& entry : document.at("chosen"))
+            choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), entry.at("run"), entry.at("seed"), entry.at("balls")});
+        for (auto const& run : document.at("considered")) choice.considered.push_back({run.at("run"), run.at("seed"), run.at("balls")});
+        choice.without = document.at("without").get<std::vector<int>>();
+        return choice;
+    } catch (nlohmann::json::exception const& error) {
+        throw Error(fmt::format("cannot read {}", path), error.what(), "Remove it to choose the source runs again.");
+    }
+}
+
+} // namespace lore

@@ -1,0 +1,88 @@
+#include <lore/campaign/comparison.h>
+
+#include <lore/statistics/holm.h>
+#include <lore/statistics/mann_whitney.h>
+#include <lore/statistics/quantiles.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace lore {
+
+std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results const& results) {
+    std::vector<Comparison> comparisons;
+    std::vector<double> p_values;
+    for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
+        for (std::size_t j = i + 1; j < plan.report_order.size(); ++j) {
+            std::string const &a = plan.report_order[i], &b = plan.report_order[j];
+            auto const first = results.final_balls(a), second = results.final_balls(b);
+            if (first.empty() || second.empty()) continue;
+            MannWhitney const test = mann_whitney(first, second);
+            comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u, test.p, test.p,
+                                   vargha_delaney_a12(first, second), test.exact});
+            p_values.push_back(test.p);
+        }
+    }
+    std::vector<double> const adjusted = holm_adjusted(p_values);
+    for (std::size_t k = 0; k < comparisons.size(); ++k) comparisons[k].p_holm = adjusted[k];
+    return comparisons;
+}
+
+std::string comparisons_csv(std::vector<Comparison> const& comparisons) {
+    std::string text = "a,b,n_a,n_b,u,p,p_holm,a12\n";
+    for (Comparison const& c : comparisons)
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", c.a, c.b, c.n_a, c.n_b, c.u, c.p, c.p_holm, c.a12);
+    return text;
+}
+
+std::string summary_json(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+    using Json = nlohmann::ordered_json;
+    Json document;
+    document["title"] = plan.title;
+
+    auto describe = [&](Treatment const& treatment) {
+        Json entry{{"treatment", treatment.name}, {"label", treatment.label}, {"runs_planned", treatment.runs}};
+        auto const balls = results.final_balls(treatment.name);
+        entry["runs"] = balls.size();
+        if (balls.empty()) return entry;
+        entry["mean"] = mean(balls);
+        entry["standard_deviation"] = standard_deviation(balls);
+        entry["least"] = quantile(balls, 0);
+        entry["lower_quartile"] = quantile(balls, 0.25);
+        entry["median"] = quantile(balls, 0.5);
+        entry["upper_quartile"] = quantile(balls, 0.75);
+        entry["most"] = quantile(balls, 1);
+        for (auto row = results.curves.rbegin(); row != results.curves.rend(); ++row) {
+            if (row->treatment != treatment.name) continue;
+            entry["generation"] = row->generation;
+            entry["mean_low"] = row->low;
+            entry["mean_high"] = row->high;
+            break;
+        }
+        return entry;
+    };
+    bool complete = static_cast<int>(results.final_balls(plan.source.name).size()) == plan.source.runs;
+    document["treatments"] = Json::array({describe(plan.source)});
+    for (std::string const& name : plan.report_order) {
+        document["treatments"].push_back(describe(plan.treatment(name)));
+        complete = complete && static_cast<int>(results.final_balls(name).size()) == plan.treatment(name).runs;
+    }
+    document["complete"] = complete;
+
+    document["comparisons"] = Json::array();
+    for (Comparison const& c : comparisons)
+        document["comparisons"].push_back({{"a", c.a}, {"b", c.b}, {"n_a", c.n_a}, {"n_b", c.n_b}, {"u", c.u}, {"p", c.p},
+                                           {"p_holm", c.p_holm}, {"a12", c.a12}, {"exact", c.exact}});
+    document["knowledge"] = Json::array();
+    for (KnowledgeRow const& base : results.bases)
+        document["knowledge"].push_back({{"knowledge", base.knowledge}, {"kind", base.kind}, {"source_run", base.source_run},
+                                         {"seed", base.seed}, {"balls", base.balls}, {"individuals", base.individuals},
+                                         {"windows", base.windows}, {"features", base.features},
+                                         {"least_value", base.least_value}, {"greatest_value", base.greatest_value}});
+    return document.dump(2) + "\n";
+}
+
+std::string_view significance_mark(double p) { return p < 1e-3 ? "**" : p < 1e-2 ? "*" : ""; }
+std::string p_text(double p) { return p < 1e-3 ? fmt::format("{:.1e}", p) : fmt::format("{:.3f}", p); }
+
+} // namespace lore

@@ -1,0 +1,200 @@
+#include <lore/campaign/plan.h>
+
+#include <lore/core/error.h>
+#include <lore/core/toml.h>
+#include <lore/experiment/config.h>
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+constexpr std::int64_t most_runs = 9999;
+constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max() / 2;
+// Steps of other kinds than runs have names that start with these words.
+std::set<std::string, std::less<>> const reserved_names{"choose", "knowledge", "archive", "report"};
+
+bool is_name(std::string_view text) {
+    return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '_' || c == '-';
+    });
+}
+
+/// Values that treatments share unless they have their own.
+struct Defaults {
+    std::int64_t runs = 30;
+    std::int64_t first_seed = 1;
+    std::int64_t generations = 0;   ///< 0: as the configuration says
+};
+
+Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::string name) {
+    Treatment treatment;
+    treatment.name = name.empty() ? table.required_string("name") : std::move(name);
+    if (!is_name(treatment.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
+    if (reserved_names.contains(treatment.name)) table.fail("name", fmt::format("'{}' is reserved", treatment.name), "Choose another.");
+    treatment.label = table.string("label").value_or(treatment.name);
+    treatment.config = table.required_string("config");
+    treatment.knowledge = table.string("knowledge").value_or("");
+    treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
+    treatment.first_seed = static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
+    std::int64_t const generations = table.integer("generations", 1, 10'000'000).value_or(defaults.generations);
+    if (generations != 0) treatment.overrides.push_back(fmt::format("evolution.generations={}", generations));
+    for (std::string& setting : table.strings("set").value_or(std::vector<std::string>{})) treatment.overrides.push_back(std::move(setting));
+    table.reject_unknown();
+    return treatment;
+}
+
+/// The one key of `choices` that the table has.
+std::string_view only_key(TomlTable const& table, std::vector<std::string_view> const& choices) {
+    std::string_view found;
+    for (std::string_view key : choices) {
+        if (!table.has(key)) continue;
+        if (!found.empty()) table.fail(key, fmt::format("it excludes '{}'", found), "Keep one of them.");
+        found = key;
+    }
+    if (found.empty()) {
+        table.reject_unknown();   // one of them misspelt, most likely
+        table.fail("name", fmt::format("one of {} is missing", fmt::join(choices, ", ")), "Add one.");
+    }
+    return found;
+}
+
+KnowledgePlan read_knowledge(TomlTable const& table) {
+    KnowledgePlan plan;
+    plan.name = table.required_string("name");
+    if (!is_name(plan.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
+    plan.label = table.string("label").value_or(plan.name);
+    std::string_view const key = only_key(table, {"balls", "run", "all_of", "random_of", "part_of"});
+    if (key == "balls") {
+        plan.balls = table.required_number("balls", 0, 1e6);
+    } else if (key == "run") {
+        plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
+    } else {
+        plan.kind = key == "all_of" ? KnowledgeKind::all : key == "random_of" ? KnowledgeKind::random : KnowledgeKind::reduced;
+        plan.base = table.required_string(key);
+    }
+    if (plan.kind == KnowledgeKind::random) plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
+    else plan.options = table.strings("options").value_or(std::vector<std::string>{});
+    if (plan.kind == KnowledgeKind::reduced) {
+        std::string_view const how = only_key(table, {"top", "least_value", "consensus"});
+        if (how == "top") plan.options.insert(plan.options.begin(), {"--top", fmt::format("{}", *table.integer("top", 1, 100'000'000))});
+        if (how == "least_value") plan.options.insert(plan.options.begin(), {"--min-value", fmt::format("{}", *table.number("least_value", -1, 1e6))});
+        if (how == "consensus") plan.consensus = *table.strings("consensus");
+    }
+    table.reject_unknown();
+    return plan;
+}
+
+void check_name(TomlTable const& document, std::string_view key, std::string const& wanted, std::vector<std::string> const& known) {
+    if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
+    std::vector<std::string_view> const words(known.begin(), known.end());
+    std::string const meant = nearest_word(wanted, words.data(), words.size());
+    document.fail(key, fmt::format("there is no '{}' before it", wanted),
+                  meant.empty() ? "Define it first." : fmt::format("Did you mean '{}'?", meant));
+}
+
+} // namespace
+
+Treatment const& CampaignPlan::treatment(std::string_view name) const {
+    if (source.name == name) return source;
+    auto const found = std::find_if(targets.begin(), targets.end(), [&](Treatment const& t) { return t.name == name; });
+    assert(found != targets.end());
+    return *found;
+}
+
+KnowledgePlan const& CampaignPlan::knowledge_base(std::string_view name) const {
+    auto const found = std::find_if(knowledge.begin(), knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
+    assert(found != knowledge.end());
+    return *found;
+}
+
+std::string CampaignPlan::config_path(Treatment const& treatment) const {
+    return (std::filesystem::path{directory} / treatment.config).lexically_normal().string();
+}
+
+CampaignPlan read_campaign(std::string const& path) {
+    TomlTable const document = TomlTable::read_file(path);
+    CampaignPlan plan;
+    plan.path = path;
+    plan.directory = std::filesystem::path{path}.parent_path().string();
+    plan.title = document.required_string("title");
+
+    Defaults defaults;
+    defaults.runs = document.integer("runs", 1, most_runs).value_or(defaults.runs);
+    defaults.first_seed = document.integer("first_seed", 0, most_seed).value_or(defaults.first_seed);
+    defaults.generations = document.integer("generations", 1, 10'000'000).value_or(0);
+
+    plan.source = read_treatment(document.required_table("source"), defaults, "source");
+    if (!plan.source.knowledge.empty()) document.fail("source", "the source treatment cannot use a knowledge base");
+
+    std::vector<std::string> bases;
+    for (TomlTable const& table : document.tables("knowledge")) {
+        KnowledgePlan knowledge = read_knowledge(table);
+        if (std::find(bases.begin(), bases.end(), knowledge.name) != bases.end())
+            table.fail("name", fmt::format("'{}' is defined twice", knowledge.name), "Rename one.");
+        if (!knowledge.base.empty()) check_name(table, "name", knowledge.base, bases);
+        for (std::string const& other : knowledge.consensus) check_name(table, "consensus", other, bases);
+        if (knowledge.run > plan.source.runs) table.fail("run", fmt::format("there are only {} source runs", plan.source.runs));
+        bases.push_back(knowledge.name);
+        plan.knowledge.push_back(std::move(knowledge));
+        if (plan.knowledge.back().kind == KnowledgeKind::all &&
+            plan.knowledge_base(plan.knowledge.back().base).kind != KnowledgeKind::lineage)
+            table.fail("all_of", "it must name a knowledge base made from a lineage");
+    }
+    auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                             [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });
+    if (from_lineages > plan.source.runs)
+        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}", from_lineages, plan.source.runs));
+
+    std::vector<std::string> names;
+    for (TomlTable const& table : document.tables("treatment")) {
+        Treatment treatment = read_treatment(table, defaults, "");
+        if (treatment.name == plan.source.name || std::find(names.begin(), names.end(), treatment.name) != names.end())
+            table.fail("name", fmt::format("'{}' is defined twice", treatment.name), "Rename one.");
+        if (!treatment.knowledge.empty()) check_name(table, "knowledge", treatment.knowledge, bases);
+        names.push_back(treatment.name);
+        plan.targets.push_back(std::move(treatment));
+    }
+
+    plan.report_order = names;
+    if (auto const report = document.table("report")) {
+        if (auto order = report->strings("order")) {
+            for (std::string const& name : *order) check_name(*report, "order", name, names);
+            if (std::set<std::string>(order->begin(), order->end()).size() != names.size() || order->size() != names.size())
+                report->fail("order", "it must name every treatment once");
+            plan.report_order = *std::move(order);
+        }
+        plan.figures.trajectory = report->string("trajectory").value_or("");
+        plan.figures.figure5 = report->strings("figure5").value_or(std::vector<std::string>{});
+        plan.figures.figure6 = report->strings("figure6").value_or(std::vector<std::string>{});
+        if (!plan.figures.trajectory.empty()) {
+            check_name(*report, "trajectory", plan.figures.trajectory, bases);
+            if (plan.knowledge_base(plan.figures.trajectory).kind != KnowledgeKind::lineage)
+                report->fail("trajectory", "it must name a knowledge base made from a lineage");
+        }
+        for (std::string const& name : plan.figures.figure5) check_name(*report, "figure5", name, bases);
+        for (std::string const& name : plan.figures.figure6) check_name(*report, "figure6", name, bases);
+        report->reject_unknown();
+    }
+    if (auto const cluster = document.table("cluster")) {
+        plan.cluster.time_limit = cluster->string("time_limit").value_or(plan.cluster.time_limit);
+        plan.cluster.warning_seconds = static_cast<int>(cluster->integer("warning_seconds", 1, 3600).value_or(plan.cluster.warning_seconds));
+        plan.cluster.concurrent = static_cast<int>(cluster->integer("concurrent", 1, 100'000).value_or(plan.cluster.concurrent));
+        plan.cluster.options = cluster->strings("options").value_or(std::vector<std::string>{});
+        cluster->reject_unknown();
+    }
+    document.reject_unknown();
+
+    read_config(plan.config_path(plan.source), plan.source.overrides);
+    for (Treatment const& target : plan.targets) read_config(plan.config_path(target), target.overrides);
+    return plan;
+}
+
+} // namespace lore

@@ -1,0 +1,55 @@
+#include <lore/campaign/report.h>
+
+#include <lore/archive/atomic_file.h>
+#include <lore/campaign/chart.h>
+#include <lore/core/error.h>
+#include <lore/figure/svg.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// The CSV files may be those of another campaign: every name in them must be known.
+void check_names(CampaignPlan const& plan, Results const& results) {
+    auto const check_treatment = [&](std::string_view file, std::string_view name) {
+        if (name == plan.source.name || std::find(plan.report_order.begin(), plan.report_order.end(), name) != plan.report_order.end()) return;
+        throw Error(fmt::format("cannot report with {}", plan.path), fmt::format("{} tells of a treatment '{}' that it does not know", file, name),
+                    "Use the campaign's file that made these results.");
+    };
+    for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
+    for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
+    for (Replay const& replay : results.replays) check_treatment("replay.csv", std::string_view{replay.step}.substr(0, replay.step.find('/')));
+}
+
+} // namespace
+
+void write_report(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    if (std::filesystem::exists(directory.file("runs"))) write_results(directory, collect_results(plan, directory));
+    if (!std::filesystem::exists(directory.file("final.csv")))
+        throw Error(fmt::format("there is nothing to report in {}", directory.path()), "neither runs nor a final.csv",
+                    "Start with 'lore-campaign run', or check --dir.");
+    Results const results = read_results(directory);
+    check_names(plan, results);
+    auto const comparisons = compare_treatments(plan, results);
+    write_file_atomically(directory.file("pvalues.csv"), std::string_view{comparisons_csv(comparisons)});
+    write_file_atomically(directory.file("summary.json"), std::string_view{summary_json(plan, results, comparisons)});
+
+    std::map<std::string, std::string> figures;
+    figures["figure3"] = draw_curves(plan, results);
+    figures["figure4"] = draw_boxplots(plan, results, comparisons);
+    for (std::string const figure : {"figure5", "figure6"})
+        if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
+    std::filesystem::create_directories(directory.file("figures"));
+    for (auto const& [name, svg] : figures) {
+        write_file_atomically(directory.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
+        write_file_atomically(directory.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
+    }
+    write_file_atomically(directory.file("report.html"), std::string_view{report_page(plan, results, comparisons, figures)});
+}
+
+} // namespace lore

@@ -1,0 +1,181 @@
+#include <lore/campaign/results.h>
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/campaign/choice.h>
+#include <lore/campaign/state.h>
+#include <lore/core/error.h>
+#include <lore/episode/episode.h>
+#include <lore/experiment/manifest.h>
+#include <lore/experiment/progress_file.h>
+#include <lore/experiment/run_directory.h>
+#include <lore/knowledge/shaping.h>
+#include <lore/statistics/bootstrap.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Curves are kept at so many generations at most: what a figure can show.
+constexpr int most_curve_points = 401;
+
+struct FinishedRun {
+    RunRow row;
+    std::vector<double> balls;   ///< best-of-run by generation, from 0
+};
+
+std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory, Treatment const& treatment) {
+    std::vector<FinishedRun> finished;
+    for (int run = 1; run <= treatment.runs; ++run) {
+        Step const step{run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, {}};
+        if (state_of(plan, directory, step, Locks::ignored).status != StepStatus::done) continue;
+        std::string const path = directory.run(step.name);
+        Manifest const manifest = read_manifest((fs::path{path} / run_file::manifest).string());
+        std::vector<ProgressRow> const progress = read_progress((fs::path{path} / run_file::progress).string());
+        if (progress.empty()) throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut", "Remove the run to make it again.");
+        FinishedRun entry;
+        entry.row = {treatment.name, run, manifest.seed, progress.back().best_balls, progress.back().generation,
+                     progress.back().evaluations, manifest.signature, fmt::format("{} ({})", manifest.build.version, manifest.build.commit)};
+        for (ProgressRow const& row : progress) entry.balls.push_back(row.best_balls);
+        finished.push_back(std::move(entry));
+    }
+    return finished;
+}
+
+std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
+    std::size_t length = runs.front().balls.size();
+    for (FinishedRun const& run : runs) length = std::min(length, run.balls.size());
+    std::size_t const stride = std::max<std::size_t>(1, (length - 1 + most_curve_points - 2) / (most_curve_points - 1));
+    std::vector<std::size_t> generations;
+    for (std::size_t g = 0; g < length; g += stride) generations.push_back(g);
+    if (generations.back() != length - 1) generations.push_back(length - 1);
+
+    std::vector<std::vector<double>> curves;
+    for (FinishedRun const& run : runs) {
+        curves.emplace_back();
+        for (std::size_t const g : generations) curves.back().push_back(run.balls[g]);
+    }
+    MeanBand const band = bootstrap_mean_band(curves);
+    std::vector<CurveRow> rows;
+    for (std::size_t c = 0; c < generations.size(); ++c)
+        rows.push_back({treatment.name, static_cast<int>(generations[c]), static_cast<int>(runs.size()), band.mean[c], band.low[c], band.high[c]});
+    return rows;
+}
+
+/// The knowledge base from a lineage that this one goes back to.
+KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
+    return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
+}
+
+std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory, std::optional<Choice> const& choice) {
+    std::vector<KnowledgeRow> rows;
+    for (KnowledgePlan const& planned : plan.knowledge) {
+        ChosenRun const* const source = choice ? choice->find(origin_of(plan, planned).name) : nullptr;
+        if (source == nullptr || !fs::exists(directory.knowledge(planned.name))) continue;
+        KnowledgeBase const base = read_knowledge_base(directory.knowledge(planned.name));
+        KnowledgeRow row{planned.name, base.provenance().kind, source->run, source->seed, source->balls,
+                         base.provenance().individuals, base.provenance().windows, base.size(), 0, 0};
+        if (base.size() > 0) {
+            auto const [least, greatest] = std::minmax_element(base.values().begin(), base.values().end());
+            row.least_value = *least;
+            row.greatest_value = *greatest;
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Replay replay_of(RunDirectory const& run, std::string const& step) {
+    Replay replay{step, {}};
+    WorldState before = start_world(run.arena);
+    run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
+        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open, before.switch_lit,
+                                before.balls, before.collected});
+        before = view.world;
+    });
+    return replay;
+}
+
+/// Values of the windows by each base, and their product where several are asked for together.
+std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory const& directory, RunDirectory const& run) {
+    Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
+    auto values_by = [&](std::string const& name) {
+        Shaper const shaper{read_knowledge_base(directory.knowledge(name))};
+        auto reader = shaper.reader();
+        std::vector<double> values;
+        for (Window const& window : windows_of(trace, shaper.base().config().window_length)) {
+            Match const match = reader.match(window);
+            values.push_back(match.found() ? shaper.base().value(match.feature) : no_feature_value);
+        }
+        return values;
+    };
+    auto const built = [&](std::string const& name) { return fs::exists(directory.knowledge(name)); };
+
+    std::vector<PanelValues> panels;
+    for (std::string const& name : plan.figures.figure5)
+        if (built(name)) panels.push_back({"figure5", name, values_by(name)});
+    if (!plan.figures.figure6.empty() && std::all_of(plan.figures.figure6.begin(), plan.figures.figure6.end(), built)) {
+        PanelValues product{"figure6", fmt::format("{}", fmt::join(plan.figures.figure6, "*")), {}};
+        for (std::string const& name : plan.figures.figure6) {
+            std::vector<double> const values = values_by(name);
+            if (product.values.empty()) product.values.assign(values.size(), 1.0);
+            if (values.size() != product.values.size())
+                throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name), "Name others in [report].");
+            for (std::size_t w = 0; w < values.size(); ++w) product.values[w] *= std::max(0.0, values[w]);
+        }
+        panels.push_back(std::move(product));
+    }
+    return panels;
+}
+
+} // namespace
+
+std::vector<double> Results::final_balls(std::string_view treatment) const {
+    std::vector<double> balls;
+    for (RunRow const& run : runs)
+        if (run.treatment == treatment) balls.push_back(run.balls);
+    return balls;
+}
+
+Results collect_results(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    Results results;
+    std::vector<std::string> order{plan.source.name};
+    order.insert(order.end(), plan.report_order.begin(), plan.report_order.end());
+    for (std::string const& name : order) {
+        Treatment const& treatment = plan.treatment(name);
+        auto const runs = finished_runs(plan, directory, treatment);
+        if (runs.empty()) continue;
+        for (FinishedRun const& run : runs) results.runs.push_back(run.row);
+        auto const curve = curve_of(treatment, runs);
+        results.curves.insert(results.curves.end(), curve.begin(), curve.end());
+    }
+    auto const choice = recorded_choice(directory);
+    results.bases = knowledge_rows(plan, directory, choice);
+
+    ChosenRun const* const shown = choice && !plan.figures.trajectory.empty() ? choice->find(plan.figures.trajectory) : nullptr;
+    if (shown != nullptr) {
+        std::string const step = run_step(plan.source.name, shown->run);
+        RunDirectory const run = open_run(directory.run(step));
+        results.replays.push_back(replay_of(run, step));
+        results.panels = panels_of(plan, directory, run);
+
+        RunRow const* best = nullptr;
+        for (RunRow const& row : results.runs)
+            if (row.treatment != plan.source.name && (best == nullptr || row.balls > best->balls)) best = &row;
+        if (best != nullptr) {
+            std::string const target = run_step(best->treatment, best->run);
+            results.replays.push_back(replay_of(open_run(directory.run(target)), target));
+        }
+    }
+    return results;
+}
+
+} // namespace lore

@@ -1,0 +1,169 @@
+#include <lore/campaign/slurm.h>
+
+#include <lore/archive/atomic_file.h>
+#include <lore/campaign/state.h>
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+
+namespace lore {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 1,2,3,7 as "1-3,7".
+std::string ranges(std::vector<int> const& numbers) {
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < numbers.size();) {
+        std::size_t last = i;
+        while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+        parts.push_back(last == i ? fmt::format("{}", numbers[i]) : fmt::format("{}-{}", numbers[i], numbers[last]));
+        i = last + 1;
+    }
+    return fmt::format("{}", fmt::join(parts, ","));
+}
+
+std::string flat(std::string text) {
+    std::replace(text.begin(), text.end(), '/', '-');
+    return text;
+}
+
+/// Runs a command and returns what it printed; stderr comes along where it fails.
+std::string output_of(std::vector<std::string> const& command) {
+    std::string const line = shell_text(command) + " 2>&1";
+    FILE* const pipe = ::popen(line.c_str(), "r");
+    if (pipe == nullptr) throw Error(fmt::format("cannot start {}", command.front()), "no process could be made", "Try again.");
+    std::string text;
+    std::array<char, 4096> chunk;
+    for (std::size_t got; (got = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) text.append(chunk.data(), got);
+    int const status = ::pclose(pipe);
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw Error(fmt::format("{} failed", command.front()), text.empty() ? "it said nothing" : text,
+                    WEXITSTATUS(status) == 127 ? "Call it where Slurm's programs are, or use 'lore-campaign run'." : "Mend that and submit again.");
+    return text;
+}
+
+std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher, std::string const& program,
+                      BatchJob const& job) {
+    std::string text = "#!/usr/bin/env bash\n";
+    auto option = [&](std::string const& words) { text += fmt::format("#SBATCH {}\n", words); };
+    option(fmt::format("--job-name=lore-{}", flat(job.group)));
+    if (!job.tasks.empty()) option(fmt::format("--array={}%{}", ranges(job.tasks), plan.cluster.concurrent));
+    option(fmt::format("--ntasks={}", launcher.ranks));
+    option(fmt::format("--time={}", plan.cluster.time_limit));
+    option(fmt::format("--signal=B:USR1@{}", plan.cluster.warning_seconds));
+    option("--requeue");
+    option("--open-mode=append");
+    option(fmt::format("--output={}", directory.file(fmt::format("logs/slurm-{}{}.out", flat(job.group), job.tasks.empty() ? "" : "-%a"))));
+    for (std::string const& words : plan.cluster.options) option(words);
+    text += "\n";
+
+    std::vector<std::string> const campaign{plan.path, "--dir", directory.path()};
+    if (job.group == "report") return text + fmt::format("exec {} report {}\n", shell_text({program}), shell_text(campaign));
+
+    text += job.tasks.empty() ? fmt::format("step={}\nself=$SLURM_JOB_ID\n", shell_text({job.group}))
+                              : fmt::format("step=$(printf '{}/%03d' \"$SLURM_ARRAY_TASK_ID\")\nself=${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\n", job.group);
+    std::vector<std::string> options{"--jobs", "1", "--ranks", std::to_string(launcher.ranks)};
+    if (launcher.ranks > 1) options.insert(options.end(), {"--launch", launcher.launch});
+    if (!launcher.programs.empty()) options.insert(options.end(), {"--programs", launcher.programs});
+    text += fmt::format("{} run {} {} --only \"$step\" &\n", shell_text({program}), shell_text(campaign), shell_text(options));
+    // The first wait ends when the warning comes; the run then still has to reach its checkpoint.
+    text += "pid=$!\ntrap 'kill -USR1 $pid' USR1 TERM\nwait $pid; code=$?\nwhile kill -0 $pid 2>/dev/null; do wait $pid; code=$?; done\n"
+            "# 75: stopped at a checkpoint, to be run again.\n"
+            "if [ $code -eq 75 ]; then scontrol requeue \"$self\"; fi\nexit $code\n";
+    return text;
+}
+
+} // namespace
+
+std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory const& where, Launcher const& launcher, std::string const& program) {
+    CampaignPlan plan = given;
+    plan.path = fs::absolute(given.path).lexically_normal().string();
+    CampaignDirectory const directory{fs::absolute(where.path()).lexically_normal().string()};
+
+    std::vector<BatchJob> jobs;
+    std::map<std::string, std::size_t> job_of_group;
+    for (Step const& step : steps_of(plan)) {
+        if (state_of(plan, directory, step).status == StepStatus::done) continue;
+        auto const [entry, is_new] = job_of_group.try_emplace(step.group, jobs.size());
+        if (is_new) {
+            BatchJob job;
+            job.group = step.group;
+            for (std::string const& group : step.after)
+                if (job_of_group.contains(group)) (step.kind == StepKind::choose ? job.after_any : job.after).push_back(group);
+            jobs.push_back(std::move(job));
+        }
+        if (step.kind == StepKind::evolve) jobs[entry->second].tasks.push_back(step.run);
+    }
+    BatchJob report;
+    report.group = "report";
+    for (BatchJob const& job : jobs) report.after_any.push_back(job.group);
+    jobs.push_back(std::move(report));
+    for (BatchJob& job : jobs) {
+        job.script = directory.file(fmt::format("slurm/{}.sbatch", flat(job.group)));
+        job.text = script_of(plan, directory, launcher, program, job);
+    }
+    return jobs;
+}
+
+std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
+                                         std::string const& program, bool only_write) {
+    std::string const record = directory.file("slurm/jobs.txt");
+    if (!only_write && fs::exists(record)) {
+        std::ifstream file{record};
+        std::vector<std::string> ids;
+        for (std::string id, group; file >> id >> group;) ids.push_back(id);
+        // squeue complains about ids that it has forgotten, so all of the user's jobs are asked for.
+        std::istringstream queued{output_of({"squeue", "--me", "--noheader", "--format=%A %F"})};
+        std::set<std::string> const waiting{std::istream_iterator<std::string>{queued}, {}};
+        for (std::string const& id : ids)
+            if (waiting.contains(id))
+                throw Error(fmt::format("nothing was submitted for {}", directory.path()), fmt::format("job {} of the last time is still queued", id),
+                            "Wait for it, or cancel the jobs in slurm/jobs.txt with scancel.");
+    }
+    std::vector<BatchJob> const jobs = batch_jobs(plan, directory, launcher, program);
+    fs::create_directories(directory.file("slurm"));
+    fs::create_directories(directory.file("logs"));
+    std::map<std::string, std::string> id_of_group;
+    std::vector<std::string> lines;
+    std::string recorded;
+    for (BatchJob const& job : jobs) {
+        write_file_atomically(job.script, std::string_view{job.text});
+        std::vector<std::string> conditions;
+        auto const ids = [&](std::vector<std::string> const& groups) {
+            std::vector<std::string> found;
+            for (std::string const& group : groups) if (id_of_group.contains(group)) found.push_back(id_of_group.at(group));
+            return found;
+        };
+        if (!job.after.empty()) conditions.push_back(fmt::format("afterok:{}", fmt::join(ids(job.after), ":")));
+        if (!job.after_any.empty()) conditions.push_back(fmt::format("afterany:{}", fmt::join(ids(job.after_any), ":")));
+        if (only_write) { lines.push_back(job.script); continue; }
+        std::vector<std::string> command{"sbatch", "--parsable"};
+        // A dependency that can no longer be met ends the job instead of leaving it in the queue for ever.
+        if (!conditions.empty()) command.insert(command.end(), {fmt::format("--dependency={}", fmt::join(conditions, ",")), "--kill-on-invalid-dep=yes"});
+        command.push_back(job.script);
+        std::string id = output_of(command);
+        id = id.substr(0, id.find(';'));   // "id;cluster" where there are several clusters
+        id_of_group[job.group] = id;
+        lines.push_back(fmt::format("{} {}{}", id, job.group, job.tasks.empty() ? "" : fmt::format(" ({} tasks)", job.tasks.size())));
+        recorded += fmt::format("{} {}\n", id, job.group);
+        write_file_atomically(record, std::string_view{recorded});
+    }
+    return lines;
+}
+
+} // namespace lore

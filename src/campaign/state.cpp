@@ -1,0 +1,220 @@
+#include <lore/campaign/state.h>
+
+#include <lore/archive/atomic_file.h>
+#include <lore/campaign/choice.h>
+#include <lore/core/error.h>
+#include <lore/experiment/manifest.h>
+#include <lore/experiment/progress_file.h>
+#include <lore/experiment/run_directory.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace lore {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in(std::string const& directory, std::string_view name) { return (fs::path{directory} / name).string(); }
+
+/// Settings of a finished run that differ from the plan and change its results.
+std::vector<std::string> other_settings(CampaignPlan const& plan, Treatment const& treatment, std::string const& run) {
+    ExperimentConfig planned = read_config(plan.config_path(treatment), treatment.overrides);
+    ExperimentConfig made = read_config(in(run, run_file::config));
+    // A knowledge base on the command line turns the objective on; where the arena's copy lies is told by nothing here.
+    planned.evolution.use_shaping = made.evolution.use_shaping = !treatment.knowledge.empty();
+    made.arena = planned.arena;
+    made.name = planned.name;
+    made.checkpoint_generations = planned.checkpoint_generations;
+    made.checkpoint_minutes = planned.checkpoint_minutes;
+    return differing_settings(planned, made);
+}
+
+StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, Treatment const& treatment,
+                    std::optional<std::uint64_t> seed, bool taken) {
+    std::string const run = directory.run(step.name);
+    StepState state;
+    RunProgress const progress = last_progress(run);
+    state.generation = progress.generation;
+    state.best_balls = progress.best_balls;
+    state.seconds = progress.seconds;
+    state.generations = read_config(plan.config_path(treatment), treatment.overrides).evolution.generations;
+    auto const say = [&](StepStatus status, std::string reason) {
+        state.status = status;
+        state.reason = std::move(reason);
+        return state;
+    };
+    std::string const where = fmt::format("at generation {} of {}", state.generation, state.generations);
+    if (taken) return say(StepStatus::running, where);
+
+    std::optional<Manifest> manifest;
+    if (fs::exists(in(run, run_file::manifest))) {
+        try {
+            manifest = read_manifest(in(run, run_file::manifest));
+        } catch (Error const& error) {
+            return say(StepStatus::failed, error.what());
+        }
+    }
+    if (manifest && manifest->status == RunStatus::done) {
+        if (seed && manifest->seed != *seed)
+            return say(StepStatus::failed, fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
+        if (auto const others = other_settings(plan, treatment, run); !others.empty())
+            return say(StepStatus::failed, fmt::format("it was made with another {}: move {} away", fmt::join(others, ", "), run));
+        if (!fs::exists(in(run, run_file::lineage))) return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
+        return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
+    }
+    if (auto const failure = read_failure(directory, step))
+        return say(StepStatus::failed, fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts,
+                                                   failure->log_tail.empty() ? "" : ": ",
+                                                   failure->log_tail.empty() ? "" : failure->log_tail.back()));
+    if (manifest) return say(StepStatus::interrupted, where);
+    return say(StepStatus::missing, "");
+}
+
+} // namespace
+
+std::string_view name(StepStatus status) {
+    switch (status) {
+        case StepStatus::done: return "done";
+        case StepStatus::running: return "running";
+        case StepStatus::interrupted: return "interrupted";
+        case StepStatus::failed: return "failed";
+        case StepStatus::missing: return "missing";
+    }
+    return "";
+}
+
+std::optional<Choice> recorded_choice(CampaignDirectory const& directory) {
+    if (!fs::exists(directory.choice())) return std::nullopt;
+    return read_choice(directory.choice());
+}
+
+StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, Locks locks) {
+    bool const taken = locks == Locks::looked_at && StepLock::is_taken(directory.lock(step.name));
+    if (step.kind == StepKind::evolve) {
+        Treatment const& treatment = plan.treatment(step.subject);
+        return run_state(plan, directory, step, treatment, seed_of(treatment, step.run), taken);
+    }
+    auto const choice = recorded_choice(directory);
+    if (step.kind == StepKind::archive) {
+        ChosenRun const* const origin = choice ? choice->find(plan.knowledge_base(step.subject).base) : nullptr;
+        StepState state = run_state(plan, directory, step, plan.source, origin ? std::optional{origin->seed} : std::nullopt, taken);
+        if (state.status != StepStatus::done || origin == nullptr) return state;
+        std::string const run = directory.run(step.name), source = directory.run(run_step("source", origin->run));
+        if (!fs::exists(in(run, run_file::all_individuals))) {
+            state.status = StepStatus::failed;
+            state.reason = fmt::format("there is no {}", in(run, run_file::all_individuals));
+        } else if (read_manifest(in(run, run_file::manifest)).signature != read_manifest(in(source, run_file::manifest)).signature) {
+            state.status = StepStatus::failed;
+            state.reason = fmt::format("its signature is not that of {}: was Lore changed between them?", source);
+        }
+        return state;
+    }
+    StepState state;
+    bool const there = step.kind == StepKind::choose ? choice && choice->covers(plan) : fs::exists(directory.knowledge(step.subject));
+    if (taken) {
+        state.status = StepStatus::running;
+    } else if (there) {
+        state.status = StepStatus::done;
+        if (step.kind == StepKind::choose) {
+            std::vector<std::string> words;
+            for (ChosenRun const& chosen : choice->chosen) words.push_back(fmt::format("{} from run {} ({} balls)", chosen.knowledge, chosen.run, chosen.balls));
+            state.reason = fmt::format("{}", fmt::join(words, ", "));
+        }
+    } else if (auto const failure = read_failure(directory, step)) {
+        state.status = StepStatus::failed;
+        state.reason = fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts, failure->log_tail.empty() ? "" : ": ",
+                                   failure->log_tail.empty() ? "" : failure->log_tail.back());
+    }
+    return state;
+}
+
+void write_failure(CampaignDirectory const& directory, Step const& step, FailureRecord const& failure) {
+    nlohmann::ordered_json const document{{"attempts", failure.attempts}, {"how", failure.how}, {"log_tail", failure.log_tail}};
+    // Logs may hold any bytes; what is no UTF-8 is replaced rather than refused.
+    std::string const text = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    write_file_atomically(directory.record(step.name), std::string_view{text});
+}
+
+std::optional<FailureRecord> read_failure(CampaignDirectory const& directory, Step const& step) {
+    std::string const path = directory.record(step.name);
+    if (!fs::exists(path)) return std::nullopt;
+    try {
+        std::ifstream file{path};
+        auto const document = nlohmann::json::parse(file);
+        return FailureRecord{document.at("attempts"), document.at("how"), document.at("log_tail")};
+    } catch (nlohmann::json::exception const& error) {
+        throw Error(fmt::format("cannot read {}", path), error.what(), "Remove it: the step is then tried again.");
+    }
+}
+
+void clear_failure(CampaignDirectory const& directory, Step const& step) {
+    std::error_code ignored;   // it may not be there
+    fs::remove(directory.record(step.name), ignored);
+}
+
+std::optional<StepLock> StepLock::take(std::string const& path) {
+    std::error_code failed;
+    fs::create_directories(fs::path{path}.parent_path(), failed);
+    int const descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw Error(fmt::format("cannot write {}", path), std::strerror(errno), "Choose a directory that can be written.");
+    struct flock whole{};
+    whole.l_type = F_WRLCK;
+    whole.l_whence = SEEK_SET;
+    if (::fcntl(descriptor, F_OFD_SETLK, &whole) == 0) return StepLock{descriptor};
+    int const reason = errno;
+    ::close(descriptor);
+    if (reason == EAGAIN || reason == EACCES) return std::nullopt;
+    throw Error(fmt::format("cannot lock {}", path), std::strerror(reason), "Choose a directory on a file system with locks.");
+}
+
+bool StepLock::is_taken(std::string const& path) {
+    int const descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (descriptor < 0) return false;
+    struct flock whole{};
+    whole.l_type = F_WRLCK;
+    whole.l_whence = SEEK_SET;
+    bool const taken = ::fcntl(descriptor, F_OFD_GETLK, &whole) == 0 && whole.l_type != F_UNLCK;
+    ::close(descriptor);
+    return taken;
+}
+
+StepLock::StepLock(StepLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+StepLock& StepLock::operator=(StepLock&& other) noexcept { std::swap(descriptor_, other.descriptor_); return *this; }
+StepLock::~StepLock() { if (descriptor_ >= 0) ::close(descriptor_); }
+
+RunProgress last_progress(std::string const& run_directory) {
+    std::ifstream file{in(run_directory, run_file::progress), std::ios::binary | std::ios::ate};
+    if (!file) return {};
+    std::streamoff const size = file.tellg();
+    std::streamoff const start = std::max<std::streamoff>(0, size - 2048);   // a row is some 120 bytes
+    std::string tail(static_cast<std::size_t>(size - start), '\0');
+    file.seekg(start);
+    file.read(tail.data(), size - start);
+    std::size_t const end = tail.rfind('\n');
+    if (end == std::string::npos || end == 0) return {};
+    std::size_t const begin = tail.rfind('\n', end - 1) + 1;   // npos + 1 is 0
+    std::string_view const row{tail.data() + begin, end - begin};
+
+    RunProgress progress;
+    char const* const last = row.data() + row.size();
+    auto const generation = std::from_chars(row.data(), last, progress.generation);
+    if (generation.ec != std::errc{} || generation.ptr == last || *generation.ptr != ',') return {};   // the header
+    std::from_chars(generation.ptr + 1, last, progress.best_balls);
+    std::from_chars(row.data() + row.rfind(',') + 1, last, progress.seconds);
+    return progress;
+}
+
+} // namespace lore

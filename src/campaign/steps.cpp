@@ -1,0 +1,168 @@
+#include <lore/campaign/steps.h>
+
+#include <lore/campaign/choice.h>
+#include <lore/core/error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// '/' separates directories in a step's name, and must not in a file's.
+std::string flat(std::string_view step) {
+    std::string name{step};
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name;
+}
+
+std::string knowledge_step(std::string_view name) { return fmt::format("knowledge/{}", name); }
+std::string archive_step(std::string_view name) { return fmt::format("archive/{}", name); }
+
+std::string program(Launcher const& launcher, std::string_view name) {
+    return launcher.programs.empty() ? std::string{name} : (std::filesystem::path{launcher.programs} / name).string();
+}
+
+std::vector<std::string> evolve_command(CampaignPlan const& plan, Launcher const& launcher, Treatment const& treatment,
+                                        std::uint64_t seed, std::string const& out) {
+    std::vector<std::string> command;
+    if (launcher.ranks > 1) {
+        std::istringstream words{launcher.launch};
+        for (std::string word; words >> word;) command.push_back(word == "{ranks}" ? std::to_string(launcher.ranks) : word);
+    }
+    command.insert(command.end(), {program(launcher, "lore-evolve"), plan.config_path(treatment), "--seed",
+                                   std::to_string(seed), "--out", out, "--resume"});
+    for (std::string const& setting : treatment.overrides) command.insert(command.end(), {"--set", setting});
+    return command;
+}
+
+std::string chosen_run(Choice const* choice, KnowledgePlan const& lineage_base) {
+    return choice == nullptr ? run_step("source", 0) : run_step("source", choice->of(lineage_base.name).run);
+}
+
+std::vector<std::string> build_command(CampaignDirectory const& directory, Launcher const& launcher,
+                                       KnowledgePlan const& knowledge, Choice const* choice) {
+    std::vector<std::string> command{program(launcher, "lore-kb")};
+    auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
+    switch (knowledge.kind) {
+        case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
+        case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
+        case KnowledgeKind::random: add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)}); break;
+        case KnowledgeKind::reduced:
+            add({"reduce", directory.knowledge(knowledge.base)});
+            if (!knowledge.consensus.empty()) add({"--consensus"});
+            for (std::string const& other : knowledge.consensus) add({directory.knowledge(other)});
+            break;
+    }
+    command.insert(command.end(), knowledge.options.begin(), knowledge.options.end());
+    add({"--out", directory.knowledge(knowledge.name)});
+    return command;
+}
+
+} // namespace
+
+std::string run_step(std::string_view treatment, int run) {
+    return run == 0 ? fmt::format("{}/?", treatment) : fmt::format("{}/{:03}", treatment, run);
+}
+
+std::uint64_t seed_of(Treatment const& treatment, int run) { return treatment.first_seed + static_cast<std::uint64_t>(run) - 1; }
+
+std::string CampaignDirectory::file(std::string_view name) const { return (std::filesystem::path{path_} / name).string(); }
+std::string CampaignDirectory::run(std::string_view step) const { return file(fmt::format("runs/{}", step)); }
+std::string CampaignDirectory::knowledge(std::string_view name) const { return file(fmt::format("knowledge/{}.lorekb", name)); }
+std::string CampaignDirectory::choice() const { return file("knowledge/choice.json"); }
+std::string CampaignDirectory::log(std::string_view step) const { return file(fmt::format("logs/{}.log", flat(step))); }
+std::string CampaignDirectory::lock(std::string_view step) const { return file(fmt::format("steps/{}.lock", flat(step))); }
+std::string CampaignDirectory::record(std::string_view step) const { return file(fmt::format("steps/{}.json", flat(step))); }
+
+std::vector<Step> steps_of(CampaignPlan const& plan) {
+    std::vector<Step> steps;
+    auto add_runs = [&](Treatment const& treatment) {
+        std::vector<std::string> after;
+        if (!treatment.knowledge.empty()) after.push_back(knowledge_step(treatment.knowledge));
+        for (int run = 1; run <= treatment.runs; ++run)
+            steps.push_back({run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, after});
+    };
+    add_runs(plan.source);
+    if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}});
+    for (KnowledgePlan const& knowledge : plan.knowledge) {
+        std::vector<std::string> after;
+        switch (knowledge.kind) {
+            case KnowledgeKind::lineage: after = {"choose"}; break;
+            case KnowledgeKind::all: {
+                std::string const archive = archive_step(knowledge.name);
+                steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
+                after = {archive};
+                break;
+            }
+            case KnowledgeKind::random: after = {knowledge_step(knowledge.base)}; break;
+            case KnowledgeKind::reduced:
+                after = {knowledge_step(knowledge.base)};
+                for (std::string const& other : knowledge.consensus) after.push_back(knowledge_step(other));
+                break;
+        }
+        std::string const name = knowledge_step(knowledge.name);
+        steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
+    }
+    for (Treatment const& target : plan.targets) add_runs(target);
+    return steps;
+}
+
+std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::string> const& names) {
+    std::vector<Step> found;
+    for (std::string const& name : names) {
+        std::size_t const before = found.size();
+        for (Step const& step : steps)
+            if (step.name == name || step.group == name) found.push_back(step);
+        if (found.size() != before) continue;
+        std::vector<std::string_view> known;
+        for (Step const& step : steps) { known.push_back(step.name); known.push_back(step.group); }
+        std::string const meant = nearest_word(name, known.data(), known.size());
+        throw UsageError(fmt::format("there is no step '{}'", name), "not in this campaign",
+                         meant.empty() ? "'lore-campaign plan' lists them." : fmt::format("Did you mean '{}'?", meant));
+    }
+    return found;
+}
+
+std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
+                                    Step const& step, Choice const* choice) {
+    switch (step.kind) {
+        case StepKind::evolve: {
+            Treatment const& treatment = plan.treatment(step.subject);
+            auto command = evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
+            if (!treatment.knowledge.empty()) command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
+            return command;
+        }
+        case StepKind::archive: {
+            KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
+            std::uint64_t const seed = choice == nullptr ? 0 : seed_of(plan.source, choice->of(base.name).run);
+            auto command = evolve_command(plan, launcher, plan.source, seed, directory.run(step.name));
+            if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = "?";
+            command.insert(command.end(), {"--archive", "all"});
+            return command;
+        }
+        case StepKind::build: return build_command(directory, launcher, plan.knowledge_base(step.subject), choice);
+        case StepKind::choose: break;
+    }
+    return {};
+}
+
+std::string shell_text(std::vector<std::string> const& command) {
+    std::string text;
+    for (std::string const& word : command) {
+        if (!text.empty()) text += ' ';
+        bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                                   "0123456789_-./=:,+@%") == std::string::npos;
+        if (plain) { text += word; continue; }
+        text += '\'';
+        for (char const c : word) c == '\'' ? text += "'\\''" : text += c;
+        text += '\'';
+    }
+    return text;
+}
+
+} // namespace lore

@@ -1,0 +1,94 @@
+#include <lore/campaign/plan.h>
+
+#include <lore/campaign/choice.h>
+#include <lore/campaign/steps.h>
+#include <lore/core/error.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace lore;
+
+class Campaign : public test::CampaignTest {
+protected:
+    /// What read_campaign says of the small campaign with one piece of text exchanged.
+    std::string complaint(std::string const& from, std::string const& to) {
+        std::string text = test::small_campaign;
+        text.replace(text.find(from), from.size(), to);
+        write("campaign.toml", text);
+        try {
+            plan();
+        } catch (UsageError const& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+TEST_F(Campaign, gives_treatments_the_common_values_and_their_own) {
+    CampaignPlan const campaign = plan();
+    EXPECT_EQ(campaign.source.runs, 4);
+    EXPECT_EQ(campaign.targets.at(0).runs, 3);
+    EXPECT_EQ(campaign.targets.at(1).overrides, std::vector<std::string>{"evolution.generations=20"});
+    EXPECT_EQ(campaign.report_order, (std::vector<std::string>{"none", "all", "kb1"}));
+    EXPECT_EQ(seed_of(campaign.source, 1), 1u);
+    EXPECT_EQ(seed_of(campaign.source, 4), 4u);
+}
+
+TEST_F(Campaign, reads_the_files_that_come_with_lore) {
+    CampaignPlan const paper = read_campaign(LORE_SOURCE_DIR "/jobs/paper.toml");
+    EXPECT_EQ(paper.source.runs, 30);
+    EXPECT_EQ(paper.knowledge.size(), 6u);
+    EXPECT_EQ(paper.targets.size(), 7u);
+    EXPECT_EQ(paper.report_order.front(), "none");
+    // 30 source runs, the choice, 6 knowledge bases, one archive, 7 treatments of 30.
+    EXPECT_EQ(steps_of(paper).size(), 30u + 1 + 6 + 1 + 210);
+    CampaignPlan const small = read_campaign(LORE_SOURCE_DIR "/jobs/small.toml");
+    EXPECT_EQ(small.report_order, paper.report_order);
+}
+
+TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
+    EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
+    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, consensus is missing"), std::string::npos);
+    EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
+    EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
+    EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
+    EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
+    EXPECT_NE(complaint("runs = 4", "runs = 1").find("need as many source runs"), std::string::npos);
+    EXPECT_NE(complaint("balls = 2", "balls = 2\nrun = 3").find("excludes"), std::string::npos);
+    EXPECT_NE(complaint("order = [\"none\", ", "order = [").find("every treatment once"), std::string::npos);
+    EXPECT_NE(complaint("config = \"target.toml\"", "config = \"target.tml\"").find("target.tml"), std::string::npos);
+    EXPECT_NE(complaint("generations = 20", "generatons = 20").find("Did you mean 'generations'"), std::string::npos);
+    EXPECT_NE(complaint("runs = 4", "set = [\"evolution.popultion=3\"]").find("population"), std::string::npos);
+}
+
+TEST_F(Campaign, orders_steps_after_those_that_they_wait_for) {
+    std::vector<Step> const steps = steps_of(plan());
+    for (auto step = steps.begin(); step != steps.end(); ++step)
+        for (std::string const& group : step->after)
+            EXPECT_TRUE(std::none_of(step, steps.end(), [&](Step const& later) { return later.group == group; })) << step->name;
+}
+
+TEST_F(Campaign, writes_commands_that_a_shell_takes) {
+    CampaignPlan const campaign = plan();
+    Choice choice;
+    choice.chosen = {{"kb1", 6, 3, 3, 6}, {"kb2", 2, 1, 1, 2}};
+    auto command = [&](std::string const& step) {
+        return shell_text(command_of(campaign, CampaignDirectory{"c"}, Launcher{}, steps_named(steps_of(campaign), {step}).front(), &choice));
+    };
+    std::string const here = campaign.directory;
+    EXPECT_EQ(command("kb1/002"), "lore-evolve " + here + "/target.toml --seed 2 --out c/runs/kb1/002 --resume --set evolution.generations=20 --kb c/knowledge/kb1.lorekb");
+    EXPECT_EQ(command("archive/kb1_all"), "lore-evolve " + here + "/source.toml --seed 3 --out c/runs/archive/kb1_all --resume --set evolution.generations=20 --archive all");
+    EXPECT_EQ(command("knowledge/kb1"), "lore-kb build c/runs/source/003 --out c/knowledge/kb1.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_all"), "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_top"), "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
+    EXPECT_EQ(shell_text({"a b", "it's", ""}), "'a b' 'it'\\''s' ''");
+
+    Launcher four;
+    four.ranks = 4;
+    auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
+    EXPECT_EQ(shell_text({words.begin(), words.begin() + 6}), "mpirun -n 4 --bind-to none lore-evolve");
+}

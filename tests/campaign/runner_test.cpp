@@ -1,0 +1,166 @@
+#include <lore/campaign/runner.h>
+
+#include <lore/campaign/choice.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <set>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace lore;
+
+class Runner : public test::CampaignTest {
+protected:
+    /// Works on the campaign in a process of its own, which tests can signal and kill.
+    pid_t run_elsewhere(int jobs = 2) {
+        pid_t const pid = ::fork();
+        if (pid == 0) ::_exit(static_cast<int>(run_campaign(plan(), directory(), options(jobs))));
+        return pid;
+    }
+    static int exit_code_of(pid_t pid) {
+        int status = 0;
+        ::waitpid(pid, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+    void wait_for(std::string const& file) const {
+        for (int i = 0; i < 400 && !std::filesystem::exists(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{25});
+    }
+    /// Every run's progress and every knowledge base, by path.
+    std::map<std::string, std::string> products(std::string const& where) const {
+        std::map<std::string, std::string> files;
+        for (auto const& entry : std::filesystem::recursive_directory_iterator(scratch.file(where))) {
+            std::string const name = entry.path().filename().string();
+            if (name == "choice.json" || name == "lineage.lore") files[std::filesystem::relative(entry.path(), scratch.file(where)).string()] = read(entry.path());
+            if (name == "progress.csv") {
+                // Times differ from run to run: the last column is left out.
+                std::string text;
+                std::ifstream file{entry.path()};
+                for (std::string line; std::getline(file, line);) text += line.substr(0, line.rfind(',')) + "\n";
+                files[std::filesystem::relative(entry.path(), scratch.file(where)).string()] = text;
+            }
+        }
+        return files;
+    }
+    int starts() const {
+        return static_cast<int>(std::distance(std::filesystem::directory_iterator{scratch.file("starts")}, {}));
+    }
+    void count_starts() const {
+        std::filesystem::create_directories(scratch.file("starts"));
+        ::setenv("LORE_FAKE_COUNT", scratch.file("starts").c_str(), 1);
+    }
+};
+
+TEST_F(Runner, works_through_a_campaign_and_starts_nothing_the_second_time) {
+    count_starts();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    for (Step const& step : steps_of(plan())) EXPECT_EQ(state(step.name).status, StepStatus::done) << step.name << ": " << state(step.name).reason;
+    EXPECT_EQ(starts(), 4 + 1 + 9);
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(starts(), 4 + 1 + 9);
+}
+
+TEST_F(Runner, tries_a_failed_run_once_more) {
+    ::setenv("LORE_FAKE_FAIL", "source:2:1", 1);
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("source/002").status, StepStatus::done);
+}
+
+TEST_F(Runner, reports_a_run_that_fails_twice_and_goes_on_with_the_others) {
+    ::setenv("LORE_FAKE_FAIL", "kb1:2:9", 1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
+    std::string const said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("kb1/002 failed twice (exit code 1)"), std::string::npos) << said;
+    EXPECT_NE(said.find("the fake fails (it was told to)"), std::string::npos) << said;
+    EXPECT_EQ(state("kb1/002").status, StepStatus::failed);
+    EXPECT_EQ(state("kb1/001").status, StepStatus::done);
+    EXPECT_EQ(state("kb1/003").status, StepStatus::done);
+    EXPECT_EQ(state("all/003").status, StepStatus::done);
+
+    ::unsetenv("LORE_FAKE_FAIL");   // mended: the next call makes it
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("kb1/002").status, StepStatus::done);
+}
+
+TEST_F(Runner, chooses_without_source_runs_that_failed) {
+    ::setenv("LORE_FAKE_FAIL", "source:1:9", 1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
+    testing::internal::GetCapturedStderr();
+    EXPECT_EQ(read_choice(directory().choice()).without, std::vector<int>{1});
+    EXPECT_EQ(state("kb1/003").status, StepStatus::done);
+}
+
+TEST_F(Runner, says_what_cannot_be_done_when_its_knowledge_base_fails) {
+    ::setenv("LORE_FAKE_FAIL", "archive:1:9,archive:2:9,archive:3:9,archive:4:9", 1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("all/001 cannot be done: it waits for knowledge/kb1_all"), std::string::npos);
+    EXPECT_EQ(state("kb1/003").status, StepStatus::done);
+    EXPECT_EQ(state("all/001").status, StepStatus::missing);
+}
+
+TEST_F(Runner, works_only_on_the_steps_it_is_told) {
+    RunnerOptions only = options();
+    only.only = {"source/002", "none"};
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::done);
+    EXPECT_EQ(state("source/002").status, StepStatus::done);
+    EXPECT_EQ(state("none/003").status, StepStatus::done);
+    EXPECT_EQ(state("source/001").status, StepStatus::missing);
+    only.only = {"nine"};
+    EXPECT_THROW(run_campaign(plan(), directory(), only), UsageError);
+}
+
+TEST_F(Runner, stops_at_a_checkpoint_when_asked_and_ends_with_the_same_files_when_called_again) {
+    ASSERT_EQ(run_campaign(plan(), directory("straight"), options()), ExitCode::done);
+    ::setenv("LORE_FAKE_MS", "20", 1);
+    pid_t const pid = run_elsewhere();
+    wait_for(scratch.file("c/runs/source/001/progress.csv"));
+    std::this_thread::sleep_for(std::chrono::milliseconds{100});
+    ::kill(pid, SIGINT);
+    EXPECT_EQ(exit_code_of(pid), static_cast<int>(ExitCode::interrupted));
+    EXPECT_EQ(state("source/001").status, StepStatus::interrupted);
+    EXPECT_GT(state("source/001").generation, 0);
+    ::setenv("LORE_FAKE_MS", "0", 1);
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(products("c"), products("straight"));
+}
+
+TEST_F(Runner, ends_with_the_same_files_after_being_killed_at_any_moment) {
+    ASSERT_EQ(run_campaign(plan(), directory("straight"), options()), ExitCode::done);
+    ::setenv("LORE_FAKE_MS", "5", 1);
+    for (int const after : {30, 80, 150, 400}) {
+        pid_t const pid = run_elsewhere();
+        std::this_thread::sleep_for(std::chrono::milliseconds{after});
+        ::kill(pid, SIGKILL);   // its runs go on, and keep their steps locked
+        exit_code_of(pid);
+    }
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(products("c"), products("straight"));
+}
+
+TEST_F(Runner, lets_two_copies_share_the_work_without_making_anything_twice) {
+    count_starts();
+    ::setenv("LORE_FAKE_MS", "3", 1);
+    pid_t const first = run_elsewhere(1), second = run_elsewhere(1);
+    EXPECT_EQ(exit_code_of(first), 0);
+    EXPECT_EQ(exit_code_of(second), 0);
+    EXPECT_EQ(starts(), 4 + 1 + 9);
+}
+
+TEST_F(Runner, says_when_a_program_is_missing) {
+    RunnerOptions nowhere = options();
+    nowhere.launcher.programs = scratch.file("nowhere");
+    nowhere.only = {"source/001"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), nowhere), ExitCode::failure);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot start"), std::string::npos);
+}

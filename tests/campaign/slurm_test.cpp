@@ -1,0 +1,45 @@
+#include <lore/campaign/slurm.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace lore;
+
+class Slurm : public test::CampaignTest {
+protected:
+    std::vector<BatchJob> jobs() const { return batch_jobs(plan(), directory(), options().launcher, "/opt/lore-campaign"); }
+    BatchJob job(std::string const& group) const {
+        auto const all = jobs();
+        auto const found = std::find_if(all.begin(), all.end(), [&](BatchJob const& j) { return j.group == group; });
+        return found == all.end() ? BatchJob{} : *found;
+    }
+};
+
+TEST_F(Slurm, makes_arrays_of_runs_and_lets_them_wait) {
+    EXPECT_EQ(jobs().front().group, "source");
+    EXPECT_EQ(jobs().back().group, "report");
+    EXPECT_NE(job("source").text.find("#SBATCH --array=1-4%100\n"), std::string::npos) << job("source").text;
+    EXPECT_EQ(job("choose").after_any, std::vector<std::string>{"source"});
+    EXPECT_EQ(job("kb1").after, std::vector<std::string>{"knowledge/kb1"});
+    EXPECT_TRUE(job("none").after.empty());
+    EXPECT_EQ(job("report").after_any.size(), jobs().size() - 1);
+}
+
+TEST_F(Slurm, warns_requeues_and_limits) {
+    std::string const text = job("none").text;
+    for (char const* line : {"#SBATCH --time=04:00:00\n", "#SBATCH --signal=B:USR1@120\n", "#SBATCH --requeue\n", "scontrol requeue", "--only \"$step\""})
+        EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
+TEST_F(Slurm, leaves_out_what_is_done) {
+    RunnerOptions some = options();
+    some.only = {"source/001", "source/003", "none"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    EXPECT_NE(job("source").text.find("#SBATCH --array=2,4%100\n"), std::string::npos);
+    EXPECT_EQ(job("none").group, "") << "nothing is left of it";
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(jobs().size(), 1u) << "only the report";
+}

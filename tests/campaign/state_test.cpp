@@ -1,0 +1,81 @@
+#include <lore/campaign/state.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+class State : public test::CampaignTest {};
+
+TEST_F(State, of_everything_is_missing_at_first) {
+    for (Step const& step : steps_of(plan())) EXPECT_EQ(state_of(plan(), directory(), step).status, StepStatus::missing) << step.name;
+}
+
+TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("source/001").status, StepStatus::done);
+    std::string text = test::small_campaign;
+    text.replace(text.find("generations = 20"), 16, "generations = 30");
+    write("campaign.toml", text);
+    EXPECT_EQ(state("source/001").status, StepStatus::failed);
+    EXPECT_NE(state("source/001").reason.find("evolution.generations"), std::string::npos) << state("source/001").reason;
+}
+
+TEST_F(State, of_a_run_with_another_seed_is_failed) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    std::string text = test::small_campaign;
+    text.replace(text.find("runs = 3"), 8, "runs = 3\nfirst_seed = 5");
+    write("campaign.toml", text);
+    EXPECT_NE(state("none/001").reason.find("seed 1, not 5"), std::string::npos);
+}
+
+TEST_F(State, of_a_step_whose_lock_is_held_is_running) {
+    auto lock = StepLock::take(directory().lock("none/001"));
+    ASSERT_TRUE(lock);
+    EXPECT_FALSE(StepLock::take(directory().lock("none/001"))) << "one at a time";
+    EXPECT_EQ(state("none/001").status, StepStatus::running);
+    lock.reset();
+    EXPECT_EQ(state("none/001").status, StepStatus::missing);
+}
+
+TEST_F(State, of_a_run_with_a_damaged_manifest_is_failed) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write("c/runs/none/001/manifest.json", "{");
+    EXPECT_EQ(state("none/001").status, StepStatus::failed);
+}
+
+TEST_F(State, of_an_archive_with_another_signature_than_its_run_is_failed) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("archive/kb1_all").status, StepStatus::done);
+    std::string const path = directory().run("archive/kb1_all") + "/manifest.json";
+    std::string text = read(path);
+    text.replace(text.find("00000000"), 8, "11111111");
+    write("c/runs/archive/kb1_all/manifest.json", text);
+    EXPECT_EQ(state("archive/kb1_all").status, StepStatus::failed);
+}
+
+TEST_F(State, keeps_failures_with_the_end_of_their_log) {
+    Step const step = steps_of(plan()).front();
+    std::filesystem::create_directories(scratch.file("c/steps"));
+    write_failure(directory(), step, {2, "exit code 1", {"first \xff line", "last line"}});
+    auto const failure = read_failure(directory(), step);
+    ASSERT_TRUE(failure);
+    EXPECT_EQ(failure->attempts, 2);
+    EXPECT_EQ(failure->log_tail.back(), "last line");
+    EXPECT_EQ(state("source/001").status, StepStatus::failed);
+    EXPECT_NE(state("source/001").reason.find("exit code 1 after 2 attempts: last line"), std::string::npos);
+    clear_failure(directory(), step);
+    EXPECT_FALSE(read_failure(directory(), step));
+}
+
+TEST_F(State, reads_only_whole_lines_of_progress) {
+    std::filesystem::create_directories(scratch.file("r"));
+    EXPECT_EQ(last_progress(scratch.file("r")).generation, 0);
+    write("r/progress.csv", "generation,best_balls,seconds\n");
+    EXPECT_EQ(last_progress(scratch.file("r")).generation, 0);
+    write("r/progress.csv", "generation,best_balls,seconds\n11,2,0.5\n12,3,0.75\n13,4,0.8");
+    EXPECT_EQ(last_progress(scratch.file("r")).generation, 12);
+    EXPECT_EQ(last_progress(scratch.file("r")).best_balls, 3);
+    EXPECT_EQ(last_progress(scratch.file("r")).seconds, 0.75);
+}
