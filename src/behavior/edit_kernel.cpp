@@ -117,7 +117,9 @@ static void prepare(PathGroup const& group) {
             y[lane] = static_cast<std::int8_t>(tile / tiles_per_side);
         }
         for (int tile = 0; tile < tile_count; ++tile) {
-            Bytes const dx = x - static_cast<std::int8_t>(tile % tiles_per_side), dy = y - static_cast<std::int8_t>(tile / tiles_per_side);
+            // As variables: under UBSan g++ takes the cast expressions for ints, which it will not narrow to bytes.
+            std::int8_t const column = static_cast<std::int8_t>(tile % tiles_per_side), row = static_cast<std::int8_t>(tile / tiles_per_side);
+            Bytes const dx = x - column, dy = y - row;
             lanes::store(substitutions(group, tile) + (j + 1) * width, (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy) + static_cast<std::int8_t>(origin));
         }
     }
