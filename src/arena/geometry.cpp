@@ -73,9 +73,9 @@ void compile_geometry(Arena& arena) {
     }
     g.switch_mask = 1u << g.lights.size();
     g.lights.push_back(arena.switch_position);
-    g.visibility = tabulate_visibility(arena.width, arena.height, arena.walls, arena.doors, g.lights);
 
     RobotConfig const& robot = arena.robot;
+    g.surroundings = survey(arena.width, arena.height, g.walls, g.first_door, g.lights, robot.radius + robot.max_speed);
     g.radius_squared = robot.radius * robot.radius;
     g.reach_squared = arena.reach * arena.reach;
     g.basket_radius_squared = arena.basket_radius * arena.basket_radius;
@@ -86,6 +86,12 @@ void compile_geometry(Arena& arena) {
     arena.geometry = std::move(geometry);
 }
 
+namespace {
+
+int walls_standing(Geometry const& g, bool door_open) { return door_open ? g.first_door : static_cast<int>(g.walls.size()); }
+
+} // namespace
+
 bool light_visible(Geometry const& g, int light, float x, float y, bool door_open) {
     Point const& at = g.lights[static_cast<std::size_t>(light)];
     std::size_t const walls = door_open ? static_cast<std::size_t>(g.first_door) : g.walls.size();
@@ -95,11 +101,14 @@ bool light_visible(Geometry const& g, int light, float x, float y, bool door_ope
 }
 
 std::uint32_t visible_lights(Geometry const& g, std::uint32_t wanted, float x, float y, bool door_open) {
-    VisibilityTable::Lights const known = g.visibility.at(x, y, door_open);
-    std::uint32_t visible = wanted & known.clear;
-    for (std::uint32_t open = wanted & known.mixed; open != 0; open &= open - 1) {
-        int const light = std::countr_zero(open);
-        if (light_visible(g, light, x, y, door_open)) visible |= 1u << light;
+    Surroundings::Cell const cell = g.surroundings.at(x, y, door_open);
+    std::uint32_t visible = wanted & (cell.clear | cell.mixed);
+    for (std::uint32_t doubtful = wanted & cell.mixed; doubtful != 0; doubtful &= doubtful - 1) {
+        int const light = std::countr_zero(doubtful);
+        Point const& at = g.lights[static_cast<std::size_t>(light)];
+        visit_walls(cell.suspects, walls_standing(g, door_open), [&](int wall) {
+            if (mechanics::segment_meets(g.walls[static_cast<std::size_t>(wall)], x, y, at.x, at.y)) visible &= ~(1u << light);
+        });
     }
     return visible;
 }

@@ -44,11 +44,13 @@ LaneArenaLayout::LaneArenaLayout(Arena const& arena) {
     view_.basket_mask = g.basket_mask;
     view_.switch_mask = g.switch_mask;
     view_.ball_mask = (1u << arena.task.ball_positions.size()) - 1u;
-    view_.visibility = reinterpret_cast<std::int32_t const*>(g.visibility.words.data());
-    view_.columns = g.visibility.columns;
-    view_.rows = g.visibility.rows;
-    view_.open_offset = static_cast<int>(g.visibility.open_offset);
-    view_.cells_per_u = g.visibility.cells_per_u;
+    static_assert(sizeof(Surroundings::Cell) == 4 * sizeof(std::int32_t));
+    view_.cells = reinterpret_cast<std::int32_t const*>(g.surroundings.cells.data());
+    view_.columns = g.surroundings.columns;
+    view_.rows = g.surroundings.rows;
+    view_.open_offset = static_cast<int>(g.surroundings.open_offset);
+    view_.cells_per_u = g.surroundings.cells_per_u;
+    view_.always_asked = arena.reach <= arena.robot.radius ? 0 : view_.ball_mask | view_.switch_mask;
     view_.radius = arena.robot.radius;
     view_.radius_squared = g.radius_squared;
     view_.reach_squared = g.reach_squared;

@@ -3,6 +3,7 @@
 #include "lane_work.h"
 
 #include <lore/arena/mechanics.h>
+#include <lore/arena/wall_set.h>
 
 namespace lore::LORE_ISA_NAMESPACE {
 
@@ -56,54 +57,68 @@ LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mecha
     for (int i = 0; i < arena.horizontal_count; ++i) hit_line<true>(arena, arena.horizontal[i], y, x, shut, rays, nearest);
 }
 
-/// True where no wall, nor the shut door, crosses the segment between the light and (x, y).
-I light_visible(LaneArena const& arena, Point const& light, F const& x, F const& y, I const& shut) {
-    I crossed{};
-    F const light_x = lanes::all_of<F>(light.x), light_y = lanes::all_of<F>(light.y);
-    for (int i = 0; i < arena.wall_count; ++i) {
-        I const meets = mechanics::segment_meets(arena.walls[i], x, y, light_x, light_y);
-        crossed |= i < arena.first_door ? meets : meets & shut;
-    }
-    return ~crossed;
+/// What the cells where the robots are know (Surroundings::Cell), per lane.
+struct Known { I clear, mixed, suspects, touchable; };
+
+LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I const& open) {
+    // Robots cannot leave the closed arena; the bounds only keep every read inside the table.
+    F const column = lanes::min(lanes::max(F(x * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.columns - 1)));
+    F const row = lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
+    I const cell = lanes::truncate(row) * arena.columns + lanes::truncate(column) + (open & arena.open_offset);
+    I const word = cell * 4;
+    return {lanes::gather(arena.cells, word), lanes::gather(arena.cells + 1, word), lanes::gather(arena.cells + 2, word),
+            lanes::gather(arena.cells + 3, word)};
 }
 
-struct LightsSeen { I ball_right, ball_left, basket_right, basket_left, switch_right, switch_left; };
+/// Lights in view of the sensors at each side, and those near enough to be taken or pressed; a bit a light.
+struct LightsSeen { I right, left, in_reach; };
 
-/// The six light sensors, and in `in_reach` where a shining ball or lamp is near enough to be taken or pressed.
 LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y, mechanics::Directions<F> const& look,
-                                  I const& shining, I const& open, I& in_reach) {
-    F const column = x * arena.cells_per_u, row = y * arena.cells_per_u;
-    I const inside = (column >= 0.0f) & (row >= 0.0f) & (column < static_cast<float>(arena.columns)) & (row < static_cast<float>(arena.rows));
-    I const cell = lanes::truncate(row) * arena.columns + lanes::truncate(column);
-    I const word = (cell * 2 + (open & arena.open_offset)) & inside;
-    I const clear = lanes::gather(arena.visibility, word) & shining & inside;
-    I const mixed = lanes::gather(arena.visibility + 1, word) & shining;
-    I const unsure = lanes::select(inside, mixed, shining);
-
-    LightsSeen seen{};
-    in_reach = I{};
-    for (int i = 0; i < arena.light_count; ++i) {
-        std::int32_t const bit = 1 << i;
-        F const vx = arena.lights[i].x - x, vy = arena.lights[i].y - y;
-        I visible = (clear & bit) != 0;
-        I const right = mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view);
-        I const left = mechanics::in_view(vx, vy, look.left, arena.cos_squared_half_view);
-        I const doubtful = ((unsure & bit) != 0) & (right | left);
-        if (lanes::any(doubtful)) visible |= doubtful & light_visible(arena, arena.lights[i], x, y, ~open);
-        if ((arena.ball_mask >> i & 1u) != 0) {
-            seen.ball_right |= right & visible;
-            seen.ball_left |= left & visible;
-        } else if ((arena.basket_mask >> i & 1u) != 0) {
-            seen.basket_right |= right & visible;
-            seen.basket_left |= left & visible;
-        } else {
-            seen.switch_right |= right & visible;
-            seen.switch_left |= left & visible;
-        }
-        if ((arena.basket_mask >> i & 1u) == 0)
-            in_reach |= ((shining & bit) != 0) & (vx * vx + vy * vy < arena.reach_squared);
+                                  Known const& known, I const& shining, I const& open) {
+    I right{}, left{}, near{};
+    I const possible = (known.clear | known.mixed | static_cast<std::int32_t>(arena.always_asked)) & shining;
+    for (std::uint32_t asked = lanes::reduce_or(possible); asked != 0; asked &= asked - 1) {
+        int const light = __builtin_ctz(asked);
+        std::int32_t const bit = 1 << light;
+        F const vx = arena.lights[light].x - x, vy = arena.lights[light].y - y;
+        right |= mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view) & bit;
+        left |= mechanics::in_view(vx, vy, look.left, arena.cos_squared_half_view) & bit;
+        near |= (vx * vx + vy * vy < arena.reach_squared) & bit;
     }
-    return seen;
+    I visible = (known.clear | known.mixed) & shining;
+    I const doubtful = (right | left) & known.mixed & shining;
+    if (std::uint32_t asked = lanes::reduce_or(doubtful); asked != 0) {
+        WallSet const suspects = lanes::reduce_or(known.suspects & (doubtful != 0));
+        for (; asked != 0; asked &= asked - 1) {
+            int const light = __builtin_ctz(asked);
+            F const light_x = lanes::all_of<F>(arena.lights[light].x), light_y = lanes::all_of<F>(arena.lights[light].y);
+            visit_walls(suspects, arena.wall_count, [&](int wall) __attribute__((always_inline)) {
+                I crossed = mechanics::segment_meets(arena.walls[wall], x, y, light_x, light_y);
+                if (wall >= arena.first_door) crossed &= ~open;
+                // Where the light is clear no wall crosses, so lanes need not be told apart.
+                visible &= ~(crossed & (1 << light));
+            });
+        }
+    }
+    return {right & visible, left & visible, near & shining};
+}
+
+/// What the attempted move meets.
+struct Contact { I any, right, left; };
+
+LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F const& x, F const& y, math::SinCos<F> const& heading, I const& open) {
+    Contact contact{};
+    visit_walls(touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
+        Rect const& wall = arena.walls[i];
+        I touched = mechanics::touches(wall, x, y, arena.radius_squared);
+        if (i >= arena.first_door) touched &= ~open;
+        if (!lanes::any(touched)) return;
+        auto const pressed = mechanics::bumpers(wall, x, y, heading, arena.radius);
+        contact.any |= touched;
+        contact.right |= pressed.right & touched;
+        contact.left |= pressed.left & touched;
+    });
+    return contact;
 }
 
 LORE_INLINE F activation(F const& bias, F const& sum) { return 1.0f / (1.0f + math::exp(F(bias - sum))); }
@@ -173,16 +188,19 @@ void run_steps(LaneWork& work, int first, int last) {
         I const shining = lanes::load<I>(work.balls) | static_cast<std::int32_t>(arena.basket_mask)
                         | (lanes::load<I>(work.switch_lit) & static_cast<std::int32_t>(arena.switch_mask));
 
+        Known const known = look_up(arena, x, y, open);
         mechanics::Directions<F> const look = mechanics::directions(heading);
         F distances[3];
         cast_rays(arena, x, y, look, ~open, distances);
-        I in_reach;
-        LightsSeen const lights = see_lights(arena, x, y, look, shining, open, in_reach);
+        LightsSeen const lights = see_lights(arena, x, y, look, known, shining, open);
+        auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline)) -> I { return (seen & static_cast<std::int32_t>(kind)) != 0; };
 
         F sensed[3];
         for (int r = 0; r < 3; ++r) sensed[r] = mechanics::range_value(distances[r], arena.sensor_range, arena.inverse_range);
-        I const binary[9] = {lights.ball_right, lights.ball_left, lights.basket_right, lights.basket_left, lights.switch_right,
-                             lights.switch_left, bumper_right, bumper_left, carrying};
+        I const binary[9] = {sees(lights.right, arena.ball_mask), sees(lights.left, arena.ball_mask),
+                             sees(lights.right, arena.basket_mask), sees(lights.left, arena.basket_mask),
+                             sees(lights.right, arena.switch_mask), sees(lights.left, arena.switch_mask),
+                             bumper_right, bumper_left, carrying};
         for (int r = 0; r < 3; ++r) lanes::store(work.neurons + r * width, sensed[r]);
         for (int b = 0; b < 9; ++b) lanes::store(work.neurons + (3 + b) * width, ones_where(binary[b]));
         F effectors[outputs];
@@ -203,7 +221,7 @@ void run_steps(LaneWork& work, int first, int last) {
 
         lanes::store(work.x, x);
         lanes::store(work.y, y);
-        act(work, effectors[2], in_reach);
+        act(work, effectors[2], sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
         open = lanes::load<I>(work.door_open);
 
         mechanics::Drive<F> const drive = mechanics::drive(effectors[0], effectors[1], arena.max_speed, arena.inverse_wheel_distance);
@@ -212,20 +230,11 @@ void run_steps(LaneWork& work, int first, int last) {
         theta = mechanics::wrap(F(theta + drive.turn));
         heading = math::sincos(theta);
 
-        bumper_right = bumper_left = I{};
-        I touched_any{};
-        for (int i = 0; i < arena.wall_count; ++i) {
-            Rect const& wall = arena.walls[i];
-            I touched = mechanics::touches(wall, next_x, next_y, arena.radius_squared);
-            if (i >= arena.first_door) touched &= ~open;
-            if (!lanes::any(touched)) continue;
-            auto const pressed = mechanics::bumpers(wall, next_x, next_y, heading, arena.radius);
-            bumper_right |= pressed.right & touched;
-            bumper_left |= pressed.left & touched;
-            touched_any |= touched;
-        }
-        x = lanes::select(touched_any, x, next_x);
-        y = lanes::select(touched_any, y, next_y);
+        Contact const contact = touch_walls(arena, lanes::reduce_or(known.touchable), next_x, next_y, heading, open);
+        bumper_right = contact.right;
+        bumper_left = contact.left;
+        x = lanes::select(contact.any, x, next_x);
+        y = lanes::select(contact.any, y, next_y);
     }
 
     lanes::store(work.x, x);

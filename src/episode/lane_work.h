@@ -29,11 +29,14 @@ struct LaneArena {
     std::int32_t wall_count, first_door;
     Point const* lights;
     std::int32_t light_count;
-    std::uint32_t ball_mask, basket_mask, switch_mask;
+    std::uint32_t ball_mask, basket_mask, switch_mask;   ///< of lights
 
-    std::int32_t const* visibility;   ///< VisibilityTable::words
+    std::int32_t const* cells;        ///< Surroundings::cells, four words each
     std::int32_t columns, rows, open_offset;
     float cells_per_u;
+    /// Lights to look at wherever a lane is. A robot is never nearer to a wall than its radius, so no wall comes between
+    /// it and a ball within a reach that is no longer: hidden lights can be passed over, else the balls and the lamp not.
+    std::uint32_t always_asked;
 
     float radius, radius_squared, reach_squared, max_speed, inverse_wheel_distance, sensor_range, inverse_range;
     float cos_squared_half_view;

@@ -105,12 +105,47 @@ TEST(VisibleLights, are_exactly_those_of_the_definition) {
     }
 }
 
+TEST(Surroundings, name_every_wall_that_a_step_may_touch) {
+    for (char const* task : {"source", "target"}) {
+        Arena const arena = load_arena("collectball", task);
+        Geometry const& g = *arena.geometry;
+        Stream rng{6, Purpose::test};
+        int touched = 0;
+        for (int i = 0; i < 200000; ++i) {
+            bool const open = rng.coin();
+            auto const x = static_cast<float>(rng.uniform(0, arena.width)), y = static_cast<float>(rng.uniform(0, arena.height));
+            auto const way = static_cast<float>(rng.uniform(0, arena.robot.max_speed));
+            auto const direction = math::sincos(static_cast<float>(rng.uniform(-3, 3)));
+            WallSet const touchable = g.surroundings.at(x, y, open).touchable;
+            int const walls = open ? g.first_door : static_cast<int>(g.walls.size());
+            for (int wall = 0; wall < walls; ++wall) {
+                if (!mechanics::touches(g.walls[static_cast<std::size_t>(wall)], x + way * direction.cos, y + way * direction.sin, g.radius_squared)) continue;
+                ASSERT_TRUE(touchable & wall_bit(wall)) << x << ", " << y << ", wall " << wall;
+                ++touched;
+            }
+        }
+        EXPECT_GT(touched, 10000);
+    }
+}
+
+TEST(VisitWalls, reaches_every_wall_of_the_set_in_order) {
+    auto visited = [](WallSet set, int count) {
+        std::vector<int> walls;
+        visit_walls(set, count, [&](int wall) { walls.push_back(wall); });
+        return walls;
+    };
+    EXPECT_EQ(visited(0, 40), (std::vector<int>{}));
+    EXPECT_EQ(visited(wall_bit(0) | wall_bit(7), 12), (std::vector<int>{0, 7}));
+    EXPECT_EQ(visited(~0u, 3), (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(visited(wall_bit(3) | wall_bit(33), 35), (std::vector<int>{3, 31, 32, 33, 34}));
+}
+
 TEST(VisibleLights, seldom_need_the_exact_test) {
     Arena const arena = load_arena("collectball", "source");
-    auto const& words = arena.geometry->visibility.words;
+    auto const& cells = arena.geometry->surroundings.cells;
     std::size_t mixed = 0;
-    for (std::size_t i = 1; i < words.size(); i += 2) mixed += static_cast<std::size_t>(std::popcount(words[i]));
-    double const share = static_cast<double>(mixed) / (static_cast<double>(words.size() / 2) * static_cast<double>(arena.geometry->lights.size()));
+    for (Surroundings::Cell const& cell : cells) mixed += static_cast<std::size_t>(std::popcount(cell.mixed));
+    double const share = static_cast<double>(mixed) / static_cast<double>(cells.size() * arena.geometry->lights.size());
     EXPECT_LT(share, 0.05);
     EXPECT_GT(share, 0.001) << "shadows have edges";
 }

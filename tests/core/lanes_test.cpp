@@ -47,6 +47,17 @@ TYPED_TEST(LanesTest, knows_which_lanes_a_mask_holds) {
     EXPECT_FALSE(lanes::all(a > 0.0f));
 }
 
+TYPED_TEST(LanesTest, ors_its_integers_together) {
+    using V = TypeParam;
+    constexpr int width = LaneTraits<V>::width;
+    IntOf<V> bits{};
+    EXPECT_EQ(lanes::reduce_or(bits), 0u);
+    for (int i = 0; i < width; ++i) bits[i] = 1 << (2 * i % 31);
+    std::uint32_t expected = 0;
+    for (int i = 0; i < width; ++i) expected |= 1u << (2 * i % 31);
+    EXPECT_EQ(lanes::reduce_or(bits), expected);
+}
+
 TYPED_TEST(LanesTest, gathers_from_a_table) {
     using V = TypeParam;
     constexpr int width = LaneTraits<V>::width;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <lore/arena/arena.h>
-#include <lore/arena/visibility.h>
+#include <lore/arena/surroundings.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@ struct Geometry {
     /// Balls, then basket lights, then the switch; bit i of every light mask is lights[i].
     std::vector<Point> lights;
     std::uint32_t basket_mask = 0, switch_mask = 0;   ///< balls are the low bits, as in WorldState::balls
-    VisibilityTable visibility;
+    Surroundings surroundings;
 
     float radius_squared = 0, reach_squared = 0, basket_radius_squared = 0;   ///< [u^2]
     float inverse_wheel_distance = 0;                                         ///< [1/u]
@@ -30,7 +30,7 @@ void compile_geometry(Arena&);
 
 /// True if no wall, nor the shut door, crosses the segment from the light to (x, y): the definition.
 bool light_visible(Geometry const&, int light, float x, float y, bool door_open);
-/// The same for all lights in `wanted` at once, through the visibility table.
+/// The same for all lights in `wanted` at once, through the table of surroundings.
 std::uint32_t visible_lights(Geometry const&, std::uint32_t wanted, float x, float y, bool door_open);
 
 /// Distance from (x, y) to the first wall in the direction of the unit vector (dx, dy) [u], infinity if there is none.

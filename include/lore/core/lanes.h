@@ -179,6 +179,24 @@ LORE_INLINE bool all(M const& mask) {
     else return mask_bits(mask) == (1ull << (sizeof(M) / sizeof(std::int32_t))) - 1;
 }
 
+/// The lanes' integers or-ed together.
+template <class I>
+LORE_INLINE std::uint32_t reduce_or(I const& v) {
+    if constexpr (std::is_same_v<I, std::int32_t>) return static_cast<std::uint32_t>(v);
+    else {
+        constexpr int width = sizeof(I) / sizeof(std::int32_t);
+        if constexpr (width > 4) {
+            using Half = Lanes<std::int32_t, width / 2>;
+            char const* const lanes = reinterpret_cast<char const*>(&v);
+            return reduce_or(Half(load<Half>(lanes) | load<Half>(lanes + sizeof(Half))));
+        } else {
+            auto const pairs = cast_bits<Lanes<std::int64_t, 2>>(v);
+            std::int64_t const both = pairs[0] | pairs[1];
+            return static_cast<std::uint32_t>(both | both >> 32);
+        }
+    }
+}
+
 /// table[index], lane by lane; T is float or std::int32_t.
 template <class T, class I>
 LORE_INLINE auto gather(T const* table, I const& index) {

@@ -1,4 +1,4 @@
-#include <lore/arena/visibility.h>
+#include <lore/arena/surroundings.h>
 
 #include <algorithm>
 #include <array>
@@ -57,59 +57,68 @@ bool hidden_by(Box const& wall, Box const& cell, Corner const& light) {
         && blocks(wall, {cell.x0, cell.y1}, light) && blocks(wall, {cell.x1, cell.y1}, light);
 }
 
-/// Walls prepared for both proofs.
-struct Walls {
-    std::vector<Box> grown_walls, shrunk_walls;
-    explicit Walls(std::span<Rect const> walls) {
-        for (Rect const& wall : walls) {
-            grown_walls.push_back(grown(wall, margin));
-            shrunk_walls.push_back(grown(wall, -margin));
-        }
-    }
+/// A wall prepared for all proofs.
+struct Obstacle {
+    Box grown_wall, shrunk_wall;
+    WallSet bit;
+    bool door;
 };
 
-enum class View { clear, mixed, hidden };
+/// What the walls make of one light in one cell.
+struct View {
+    bool hidden = false;
+    WallSet suspects = 0;   ///< if not hidden
+};
 
-View view(Walls const& walls, Box const& cell, Corner const& light) {
-    View seen = View::clear;
-    for (std::size_t i = 0; i < walls.grown_walls.size(); ++i) {
-        if (clear_of(walls.grown_walls[i], cell, light)) continue;
-        if (hidden_by(walls.shrunk_walls[i], cell, light)) return View::hidden;
-        seen = View::mixed;
+View view(std::vector<Obstacle> const& obstacles, bool door_open, Box const& cell, Corner const& light) {
+    View seen;
+    for (Obstacle const& o : obstacles) {
+        if ((o.door && door_open) || clear_of(o.grown_wall, cell, light)) continue;
+        if (hidden_by(o.shrunk_wall, cell, light)) return {true, 0};
+        seen.suspects |= o.bit;
     }
     return seen;
 }
 
+/// Distance between two boxes.
+double distance(Box const& a, Box const& b) {
+    double const gap_x = std::max({a.x0 - b.x1, b.x0 - a.x1, 0.0}), gap_y = std::max({a.y0 - b.y1, b.y0 - a.y1, 0.0});
+    return std::hypot(gap_x, gap_y);
+}
+
 } // namespace
 
-VisibilityTable tabulate_visibility(float width, float height, std::span<Rect const> walls, std::span<Rect const> doors,
-                                    std::span<Point const> lights) {
-    VisibilityTable table;
+Surroundings survey(float width, float height, std::span<Rect const> walls, int first_door, std::span<Point const> lights,
+                    float touch_distance) {
+    Surroundings table;
     double const edge = std::max(cell_edge, std::sqrt(static_cast<double>(width) * height / most_cells));
     table.cells_per_u = static_cast<float>(1.0 / edge);
     table.columns = static_cast<int>(std::ceil(width / edge)) + 1;
     table.rows = static_cast<int>(std::ceil(height / edge)) + 1;
-    std::size_t const words = 2 * static_cast<std::size_t>(table.columns) * static_cast<std::size_t>(table.rows);
-    table.open_offset = doors.empty() ? 0 : words;
-    table.words.assign(words + table.open_offset, 0);
+    bool const has_door = first_door < static_cast<int>(walls.size());
+    std::size_t const count = static_cast<std::size_t>(table.columns) * static_cast<std::size_t>(table.rows);
+    table.open_offset = has_door ? count : 0;
+    table.cells.resize(count + table.open_offset);
 
-    Walls const standing{walls}, opening{doors};
-    std::size_t word = 0;
-    for (int row = 0; row < table.rows; ++row)
-        for (int column = 0; column < table.columns; ++column, word += 2) {
-            Box const cell{column * edge - margin, (column + 1) * edge + margin, row * edge - margin, (row + 1) * edge + margin};
-            for (std::size_t i = 0; i < lights.size(); ++i) {
-                Corner const light{lights[i].x, lights[i].y};
-                View const open = view(standing, cell, light);
-                View const shut = open == View::hidden ? open : std::max(open, view(opening, cell, light));
-                auto const note = [&](std::size_t at, View seen) {
-                    if (seen == View::clear) table.words[at] |= 1u << i;
-                    if (seen == View::mixed) table.words[at + 1] |= 1u << i;
-                };
-                note(word, shut);
-                if (table.open_offset != 0) note(word + table.open_offset, open);
-            }
+    std::vector<Obstacle> obstacles;
+    for (int i = 0; i < static_cast<int>(walls.size()); ++i) {
+        Rect const& wall = walls[static_cast<std::size_t>(i)];
+        obstacles.push_back({grown(wall, margin), grown(wall, -margin), wall_bit(i), i >= first_door});
+    }
+    for (std::size_t at = 0; at < table.cells.size(); ++at) {
+        bool const door_open = at >= count || !has_door;
+        int const row = static_cast<int>(at % count) / table.columns, column = static_cast<int>(at % count) % table.columns;
+        Box const box{column * edge - margin, (column + 1) * edge + margin, row * edge - margin, (row + 1) * edge + margin};
+        Surroundings::Cell& cell = table.cells[at];
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            View const seen = view(obstacles, door_open, box, {lights[i].x, lights[i].y});
+            if (seen.hidden) continue;
+            (seen.suspects == 0 ? cell.clear : cell.mixed) |= 1u << i;
+            cell.suspects |= seen.suspects;
         }
+        for (Obstacle const& o : obstacles)
+            if (!(o.door && door_open) && distance(o.grown_wall, box) <= touch_distance) cell.touchable |= o.bit;
+    }
     return table;
 }
 
