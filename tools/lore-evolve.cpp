@@ -6,13 +6,14 @@
 // Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/formats.md), and prints
 // the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
 
+#include "program.h"
+
 #include <lore/core/error.h>
 #include <lore/core/isa.h>
 #include <lore/experiment/run.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -90,14 +91,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
         ->check(CLI::IsMember({"lineage", "all"}))->type_name("lineage|all");
     app.add_flag("--bench", line.bench, "print the signature of a small fixed run and the steps simulated per second");
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::Success const& help) {
-        app.exit(help);
-        return ExitCode::done;
-    } catch (CLI::ParseError const& error) {
-        throw UsageError("the command line cannot be understood", error.what(), "See 'lore-evolve --help'.");
-    }
+    if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
     if (line.bench) return std::nullopt;
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.directory.empty()) throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");

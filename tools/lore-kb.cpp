@@ -6,6 +6,8 @@
 // The first simulates the lineage of the best individual of runs/s1 again and writes its behavioural features with
 // their values; the second shows what came out. docs/formats.md has the columns of the CSV files.
 
+#include "program.h"
+
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/knowledge_export.h>
 #include <lore/archive/knowledge_file.h>
@@ -19,7 +21,6 @@
 #include <lore/knowledge/shaping.h>
 #include <lore/knowledge/summary.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -311,12 +312,7 @@ int run(int argc, char** argv) {
     });
     verifying->add_option("FILE", arguments.input, "file, or directory of a run")->required();
 
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& error) {
-        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-        throw UsageError("cannot read the command line", error.what(), "See 'lore-kb --help'.");
-    }
+    if (auto const only = parse_command_line(app, argc, argv)) return *only;
     arguments.window_length_given = length_option->count() > 0;
     arguments.threshold_given = threshold_option->count() > 0;
     arguments.top_given = top_option->count() > 0;
@@ -328,13 +324,5 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (lore::Error const& error) {
-        std::fprintf(stderr, "lore-kb: %s\n", error.what());
-        return static_cast<int>(error.exit_code());
-    } catch (std::exception const& error) {
-        std::fprintf(stderr, "lore-kb: %s\n", error.what());
-        return static_cast<int>(ExitCode::failure);
-    }
+    return lore::run_program("lore-kb", [&] { return run(argc, argv); });
 }

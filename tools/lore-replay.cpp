@@ -6,6 +6,8 @@
 // The first writes replay/trace.csv, and trajectory.svg and .png coloured by the knowledge base's values; the second
 // takes a recorded trace and writes what Lore's simulation makes of each of its steps. docs/formats.md has the columns.
 
+#include "program.h"
+
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/trace_file.h>
@@ -17,7 +19,6 @@
 #include <lore/figure/trajectory.h>
 #include <lore/knowledge/shaping.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -149,7 +150,7 @@ void replay_file(Arguments const& arguments) {
 
 int run(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"Repeats an evaluation: of an individual of a run, of a list of actions, or of a recorded trace."};
+    CLI::App app{"Repeats an evaluation: of an individual of a run, of a list of actions, or of a recorded trace.", "lore-replay"};
     app.footer("Examples:\n"
                "  lore-replay runs/s1 --kb kb1.lorekb --out replay       best-of-run, coloured by the values of kb1 (figure 5)\n"
                "  lore-replay runs/s1 --kb kb1.lorekb --kb kb2.lorekb --out replay   by the product of both (figure 6)\n"
@@ -168,12 +169,7 @@ int run(int argc, char** argv) {
     app.add_option("--arena", arguments.arena, "arena file or built-in name, for --actions and --follow")->capture_default_str();
     app.add_option("--out", arguments.out, "what to write: a directory for RUN_DIR, else a CSV file")->required();
     app.add_flag("-q,--quiet", arguments.quiet, "say nothing but errors");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& error) {
-        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-        throw UsageError("cannot read the command line", error.what(), "See 'lore-replay --help'.");
-    }
+    if (auto const only = parse_command_line(app, argc, argv)) return *only;
 
     int const given = !arguments.run.empty() + !arguments.actions.empty() + !arguments.follow.empty();
     if (given != 1)
@@ -196,13 +192,5 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (lore::Error const& error) {
-        std::fprintf(stderr, "lore-replay: %s\n", error.what());
-        return static_cast<int>(error.exit_code());
-    } catch (std::exception const& error) {
-        std::fprintf(stderr, "lore-replay: %s\n", error.what());
-        return static_cast<int>(lore::ExitCode::failure);
-    }
+    return lore::run_program("lore-replay", [&] { return run(argc, argv); });
 }

@@ -5,12 +5,12 @@
 
 #include <lore/archive/messages.h>
 #include <lore/core/isa.h>
+#include <lore/core/stopwatch.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -22,17 +22,6 @@ namespace {
 constexpr int units_held = 2;              ///< by a worker: the one it works on and the next
 constexpr int row_units_a_rank = 4;        ///< more would even out better, but each carries all the paths
 constexpr int least_rows_to_share = 32;    ///< below, sending costs more than measuring
-
-class Stopwatch {
-public:
-    double lap() {
-        auto const now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Indices of a request, the largest networks first, so that lanes run networks of one size and the last units to be
 /// handed out are the short ones.

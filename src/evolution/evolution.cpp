@@ -1,8 +1,9 @@
 #include <lore/evolution/evolution.h>
 
+#include <lore/core/stopwatch.h>
+
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -120,18 +121,6 @@ void sign(Signature& signature, Population const& population) {
         for (int k = 0; k < member.objectives.count; ++k) signature.add(member.objectives.value[k]);
     }
 }
-
-/// Seconds between one call and the next.
-class Stopwatch {
-public:
-    double lap() {
-        auto const now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 } // namespace
 

@@ -2,7 +2,8 @@
 
 #include "work_order.h"
 
-#include <chrono>
+#include <lore/core/stopwatch.h>
+
 
 namespace lore {
 
@@ -28,12 +29,12 @@ BenchOutcome run_bench(Session const& session) {
     give_order(session, order);
     Farm farm{session.world(), evaluation_in(std::move(context))};
     std::uint64_t evaluations = 0;
-    auto const start = std::chrono::steady_clock::now();
+    Stopwatch const watch;
     EvolutionState const state = evolve(order.config.evolution, bench_seed, farm, {}, [&](GenerationReport const& report) {
         evaluations += report.born.size();
         return true;
     });
-    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    double const seconds = watch.total();
     return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
 }
 

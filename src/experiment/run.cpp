@@ -7,13 +7,13 @@
 
 #include <lore/archive/genome_file.h>
 #include <lore/core/progress.h>
+#include <lore/core/stopwatch.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/stop_request.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -69,8 +69,7 @@ Ready prepare_or_release(Session const& session, RunOptions const& options) {
 } // namespace
 
 RunOutcome run_experiment(Session const& session, RunOptions const& options) {
-    auto const began = std::chrono::steady_clock::now();
-    auto const seconds = [began] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
+    Stopwatch const watch;
     install_stop_handlers();
     Ready ready = prepare_or_release(session, options);
     RunSetup& setup = ready.run.setup;
@@ -99,7 +98,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         progress.update(generation, describe(books.add(report), evolution.use_shaping));
         if (generation == evolution.generations) return true;
         stop_reason = stop_request();
-        if (stop_reason.empty() && options.max_seconds && seconds() >= *options.max_seconds) stop_reason = "time limit";
+        if (stop_reason.empty() && options.max_seconds && watch.total() >= *options.max_seconds) stop_reason = "time limit";
         if (!stop_reason.empty()) return false;
         if (books.checkpoint_is_due()) books.write_checkpoint(*report.state);
         return true;
@@ -118,7 +117,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::vector<RankTimes> const rank_times = farm.stop();
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted, stop_reason.empty() ? "done" : stop_reason);
     times.files = books.filing_seconds();
-    times.wall = seconds();
+    times.wall = watch.total();
     if (!options.quiet) fmt::print(stderr, "{}", time_report(rank_times, times));
     return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation, best_of_run(state.population).birth};
 }
