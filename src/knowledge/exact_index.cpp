@@ -1,5 +1,6 @@
 #include "exact_hash.h"
 #include "exact_kernel.h"
+#include "pattern_cache.h"
 
 #include <lore/core/isa.h>
 #include <lore/knowledge/index.h>
@@ -31,6 +32,7 @@ namespace lore {
 namespace {
 
 using exact::Candidate;
+using exact::PatternCache;
 using exact::Query;
 using exact::View;
 
@@ -94,19 +96,10 @@ exact::Kernel kernel_of(Isa isa) {
     return exact::isa_baseline::kernel();
 }
 
-/// A query and its memory.
-struct QueryBuffer {
-    explicit QueryBuffer(exact::Shape const& shape) : words(static_cast<std::size_t>(shape.words)) { query.words = words.data(); }
-    QueryBuffer(QueryBuffer const&) = delete;
-    std::vector<std::uint64_t> words;
-    Query query{};
-};
-
 class ExactIndex : public FeatureIndex {
 public:
     explicit ExactIndex(KnowledgeConfig const& config)
-        : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())),
-          buffer_(shape_) {
+        : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())) {
         double_slots();
     }
 
@@ -116,11 +109,14 @@ public:
     void set_values(std::span<double const> values) override {
         assert(values.size() == static_cast<std::size_t>(size_));
         worth_.assign(values.begin(), values.end());
+        final_ = true;
     }
 
     exact::Shape const& shape() const { return shape_; }
     exact::Kernel const& kernel() const { return kernel_; }
+    /// What the features are worth; known once the set is final.
     std::span<double const> worth() const { return worth_; }
+    bool final() const { return final_; }
     View view() const {
         return {shape_, masks_.data(), buckets_.data(), slot_bits_, entries_.data(), summaries_.data(),
                 reinterpret_cast<float const*>(values_.data()), limits_.data()};
@@ -139,7 +135,6 @@ private:
     std::vector<std::uint64_t> masks_;
     std::vector<std::int32_t> limits_;
     exact::Kernel kernel_;
-    QueryBuffer buffer_;
     int slot_bits_ = 7;                        ///< always at least as many slots as features
     std::vector<exact::Bucket> buckets_;
     std::vector<std::uint64_t> entries_;
@@ -147,21 +142,23 @@ private:
     std::vector<std::int16_t> summaries_;
     std::vector<CacheLine> values_;
     std::vector<double> worth_;
+    bool final_ = false;
     int size_ = 0;
 };
 
 void ExactIndex::add(Window const& window) {
-    assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && worth_.empty());
-    Query& query = buffer_.query;
-    kernel_.prepare(shape_, window.bits.data(), window.values.data(), query);
-    patterns_.insert(patterns_.end(), query.words, query.words + shape_.words);
-    summaries_.insert(summaries_.end(), query.summary, query.summary + exact::summary_size);
+    assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && !final());
+    auto const feature = static_cast<std::size_t>(size_++);
+    auto const words = static_cast<std::size_t>(shape_.words);
+    patterns_.resize(patterns_.size() + words);
+    kernel_.pack(shape_, window.bits.data(), patterns_.data() + feature * words);
+    summaries_.resize(summaries_.size() + exact::summary_size);
+    kernel_.summarize(shape_, window.values.data(), summaries_.data() + feature * exact::summary_size);
     std::size_t const lines = static_cast<std::size_t>(shape_.value_stride) * sizeof(float) / sizeof(CacheLine);
     values_.resize(values_.size() + lines);
-    std::memcpy(values_.data() + values_.size() - lines, window.values.data(), window.values.size_bytes());
-    int const feature = size_++;
+    std::memcpy(values_.data() + feature * lines, window.values.data(), window.values.size_bytes());
     if (static_cast<std::size_t>(size_) > std::size_t{1} << slot_bits_) double_slots();
-    else for (int table = 0; table < shape_.tables; ++table) insert(table, query.words, feature);
+    else for (int table = 0; table < shape_.tables; ++table) insert(table, patterns_.data() + feature * words, size_ - 1);
 }
 
 /// A bucket has room for as many entries as the next power of two; where that is full, it moves to the end of entries_.
@@ -191,37 +188,70 @@ void ExactIndex::double_slots() {
             insert(table, patterns_.data() + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape_.words), feature);
 }
 
+/// Windows of one run keep repeating the same patterns (85 of 100 in an evolved population), so the features within
+/// reach of a pattern are remembered, from the moment when the set of features is final.
 class ExactSearch : public FeatureSearch {
 public:
-    explicit ExactSearch(ExactIndex const& index) : index_(index), buffer_(index.shape()) {}
+    explicit ExactSearch(ExactIndex const& index)
+        : index_(index), words_(static_cast<std::size_t>(index.shape().words)), cache_(index.shape().words) {}
 
-    Match match(Window const& window) override { return nearest(index_.view(), collect(window)); }
+    Match match(Window const& window) override {
+        View const view = index_.view();
+        return match(view, window, reachable(view, window));
+    }
 
     Match match_above(Window const& window, double least) override {
-        int const count = collect(window);
+        View const view = index_.view();
+        std::span<Candidate const> const candidates = reachable(view, window);
+        // They are in falling order of worth. Is there any above `least` that may be near enough to matter?
         auto const worth = index_.worth();
-        bool const worthwhile = std::any_of(candidates_.begin(), candidates_.begin() + count, [&](Candidate const& candidate) {
-            return worth[static_cast<std::size_t>(candidate.feature)] > least;
-        });
-        return worthwhile ? nearest(index_.view(), count) : Match{};
+        std::size_t above = 0;
+        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].feature)] > least) ++above;
+        if (above == 0) return {};
+        return match(view, window, candidates, above);
     }
 
 private:
-    int collect(Window const& window) {
+    std::span<Candidate const> reachable(View const& view, Window const& window) {
         assert(window.bits.size() == static_cast<std::size_t>(index_.shape().window_length));
-        std::size_t const most = static_cast<std::size_t>(index_.size()) * static_cast<std::size_t>(index_.shape().tables) + 1;
-        if (candidates_.size() < most) candidates_.resize(most * 2);
-        index_.kernel().prepare(index_.shape(), window.bits.data(), window.values.data(), buffer_.query);
-        return index_.kernel().collect(index_.view(), buffer_.query, candidates_.data());
+        index_.kernel().pack(index_.shape(), window.bits.data(), words_.data());
+        if (!index_.final()) return look_up(view);
+        if (PatternCache::List const* const known = cache_.find(words_.data())) return cache_.candidates(*known);
+        std::span<Candidate> found = look_up(view);
+        std::sort(found.begin(), found.end(), [&](Candidate const& a, Candidate const& b) {
+            double const a_worth = index_.worth()[static_cast<std::size_t>(a.feature)], b_worth = index_.worth()[static_cast<std::size_t>(b.feature)];
+            return a_worth != b_worth ? a_worth > b_worth : a.feature < b.feature;
+        });
+        auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) { return a.feature == b.feature; });
+        return cache_.add(words_.data(), found.first(static_cast<std::size_t>(end - found.begin())));
     }
-    Match nearest(View const& view, int count) const {
-        exact::Nearest const found = index_.kernel().nearest(view, buffer_.query, candidates_.data(), count);
-        return found.feature < 0 ? Match{} : Match{found.feature, found.squared_distance};
+
+    std::span<Candidate> look_up(View const& view) {
+        std::size_t const most = static_cast<std::size_t>(index_.size()) * static_cast<std::size_t>(index_.shape().tables) + 1;
+        if (found_.size() < most) found_.resize(most * 2);
+        return {found_.data(), static_cast<std::size_t>(index_.kernel().within(view, words_.data(), found_.data()))};
+    }
+
+    /// The nearest, unless none of the first `first` is promising.
+    Match match(View const& view, Window const& window, std::span<Candidate const> candidates, std::size_t first = 0) {
+        if (candidates.empty()) return {};
+        exact::Kernel const& kernel = index_.kernel();
+        alignas(32) std::int16_t summary[exact::summary_size];
+        kernel.summarize(index_.shape(), window.values.data(), summary);
+        if (promising_.size() <= candidates.size()) promising_.resize(candidates.size() * 2);
+        int kept = kernel.promising(view, summary, candidates.data(), static_cast<int>(first), promising_.data());
+        if (first > 0 && kept == 0) return {};
+        auto const rest = candidates.subspan(first);
+        kept += kernel.promising(view, summary, rest.data(), static_cast<int>(rest.size()), promising_.data() + kept);
+        Query const query{words_.data(), window.values.data(), summary};
+        exact::Nearest const nearest = kernel.nearest(view, query, promising_.data(), kept);
+        return nearest.feature < 0 ? Match{} : Match{nearest.feature, nearest.squared_distance};
     }
 
     ExactIndex const& index_;
-    QueryBuffer buffer_;
-    std::vector<Candidate> candidates_;
+    std::vector<std::uint64_t> words_;
+    PatternCache cache_;
+    std::vector<Candidate> found_, promising_;
 };
 
 std::unique_ptr<FeatureSearch> ExactIndex::search() const { return std::make_unique<ExactSearch>(*this); }

@@ -20,21 +20,22 @@ LORE_INLINE std::uint64_t four_steps(std::uint16_t const* bits) {
 #endif
 }
 
-void prepare(Shape const& shape, std::uint16_t const* bits, float const* values, Query& query) {
-    query.values = values;
-    for (int word = 0; word < shape.words; ++word) query.words[word] = 0;
+void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) {
+    for (int word = 0; word < shape.words; ++word) words[word] = 0;
     auto const place = [&](std::uint64_t pattern, int step, int size) {
         int const at = step * binary_count;
-        query.words[at / 64] |= pattern << (at % 64);
-        if (at % 64 + size > 64) query.words[at / 64 + 1] |= pattern >> (64 - at % 64);
+        words[at / 64] |= pattern << (at % 64);
+        if (at % 64 + size > 64) words[at / 64 + 1] |= pattern >> (64 - at % 64);
     };
     int step = 0;
     for (; step + 4 <= shape.window_length; step += 4) place(four_steps(bits + step), step, 4 * binary_count);
     for (; step < shape.window_length; ++step) place(bits[step] & ((1u << binary_count) - 1), step, binary_count);
+}
 
-    for (int i = summary_numbers; i < summary_size; ++i) query.summary[i] = 0;
+void summarize(Shape const& shape, float const* values, std::int16_t* summary) {
+    for (int i = summary_numbers; i < summary_size; ++i) summary[i] = 0;
     int const ends[2]{shape.first_half, shape.window_length};
-    step = 0;
+    int step = 0;
     for (int half = 0; half < 2; ++half) {
         using Four = Lanes<float, 4>;
         Four low{}, high{};   // channels 0..3 and 2..5
@@ -42,7 +43,7 @@ void prepare(Shape const& shape, std::uint16_t const* bits, float const* values,
             low += lanes::load<Four>(values + step * continuous_count);
             high += lanes::load<Four>(values + step * continuous_count + 2);
         }
-        float sums[continuous_count + 2];
+        float sums[continuous_count];
         lanes::store(sums, low);
         lanes::store(sums + 2, high);
         for (int channel = 0; channel < continuous_count; ++channel) {
@@ -50,7 +51,7 @@ void prepare(Shape const& shape, std::uint16_t const* bits, float const* values,
             // A value outside 0 .. 1 moves to the edge, which only brings two summaries nearer to each other.
             number = number > 0 ? number : 0;
             number = number < summary_scale ? number : static_cast<float>(summary_scale);
-            query.summary[half * continuous_count + channel] = static_cast<std::int16_t>(number);
+            summary[half * continuous_count + channel] = static_cast<std::int16_t>(number);
         }
     }
 }
@@ -74,30 +75,19 @@ LORE_INLINE std::int32_t summary_distance(std::int16_t const* a, std::int16_t co
 #endif
 }
 
-/// Whether the tables before `table` have led to this feature already: all bits that one of them hashes are equal.
-LORE_INLINE bool met_before(View const& view, int table, std::uint64_t const* words, std::uint64_t const* pattern, int count) {
-    for (int earlier = 0; earlier < table; ++earlier) {
-        std::uint64_t differing = 0;
-        for (int word = 0; word < count; ++word) differing |= (words[word] ^ pattern[word]) & view.masks[earlier * count + word];
-        if (differing == 0) return true;
-    }
-    return false;
-}
-
 /// FixedWords: the number of words if it is known when compiling, else 0.
 template <int FixedWords>
-LORE_INLINE int collect_with(View const& view, Query const& query, Candidate* candidates) {
+LORE_INLINE int within_with(View const& view, std::uint64_t const* words, Candidate* out) {
     Shape const& shape = view.shape;
-    int const words = FixedWords > 0 ? FixedWords : shape.words;
-    std::size_t const entry_size = FixedWords > 0 ? FixedWords + 1 : static_cast<std::size_t>(shape.entry_size);
-    std::size_t const value_stride = static_cast<std::size_t>(shape.value_stride);
-    int near = 0;
+    int const count = FixedWords > 0 ? FixedWords : shape.words;
+    std::size_t const entry_size = static_cast<std::size_t>(count) + 1;
+    int found = 0;
     constexpr int tables_at_once = 4;   // whose memory is fetched while the hashes of the others are computed
     for (int first = 0; first < shape.tables; first += tables_at_once) {
         int const last = first + tables_at_once < shape.tables ? first + tables_at_once : shape.tables;
         Bucket buckets[tables_at_once];
         for (int table = first; table < last; ++table) {
-            std::uint64_t const slot = hash_slot(query.words, view.masks + table * words, words, view.slot_bits);
+            std::uint64_t const slot = hash_slot(words, view.masks + table * count, count, view.slot_bits);
             buckets[table - first] = view.buckets[(static_cast<std::size_t>(table) << view.slot_bits) + slot];
         }
         for (int table = first; table < last; ++table)
@@ -107,36 +97,35 @@ LORE_INLINE int collect_with(View const& view, Query const& query, Candidate* ca
             std::uint64_t const* pattern = view.entries + bucket.start * entry_size;
             for (std::uint32_t i = 0; i < bucket.count; ++i, pattern += entry_size) {
                 int differing = 0;
-                for (int word = 0; word < words; ++word) differing += __builtin_popcountll(query.words[word] ^ pattern[word]);
+                for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
                 // Written in any case, kept or overwritten: the outcome cannot be predicted, and a wrong guess of the
                 // processor costs more than the rest of the loop.
-                candidates[near] = {static_cast<std::int32_t>(pattern[words]), differing, bucket.start + i, table};
-                near += differing <= shape.most_differing;
+                out[found] = {static_cast<std::int32_t>(pattern[count]), differing};
+                found += differing <= shape.most_differing;
             }
         }
     }
-
-    int count = 0;
-    for (int i = 0; i < near; ++i) {
-        Candidate const candidate = candidates[i];
-        std::int16_t const* const summary = view.summaries + static_cast<std::size_t>(candidate.feature) * summary_size;
-        candidates[count] = candidate;
-        count += summary_distance(query.summary, summary) <= view.limits[candidate.differing];
-    }
-
-    int distinct = 0;
-    for (int i = 0; i < count; ++i) {
-        Candidate const candidate = candidates[i];
-        if (met_before(view, candidate.table, query.words, view.entries + candidate.entry * entry_size, words)) continue;
-        candidates[distinct++] = candidate;
-        float const* const values = view.values + static_cast<std::size_t>(candidate.feature) * value_stride;
-        for (std::size_t at = 0; at < value_stride; at += 16) __builtin_prefetch(values + at);
-    }
-    return distinct;
+    return found;
 }
 
-int collect(View const& view, Query const& query, Candidate* candidates) {
-    return view.shape.words == 3 ? collect_with<3>(view, query, candidates) : collect_with<0>(view, query, candidates);
+int within(View const& view, std::uint64_t const* words, Candidate* out) {
+    return view.shape.words == 3 ? within_with<3>(view, words, out) : within_with<0>(view, words, out);
+}
+
+int promising(View const& view, std::int16_t const* summary, Candidate const* in, int count, Candidate* out) {
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+        Candidate const candidate = in[i];
+        std::int16_t const* const other = view.summaries + static_cast<std::size_t>(candidate.feature) * summary_size;
+        out[kept] = candidate;
+        kept += summary_distance(summary, other) <= view.limits[candidate.differing];
+    }
+    std::size_t const value_stride = static_cast<std::size_t>(view.shape.value_stride);
+    for (int i = 0; i < kept; ++i) {   // they will be compared in full
+        float const* const values = view.values + static_cast<std::size_t>(out[i].feature) * value_stride;
+        for (std::size_t at = 0; at < value_stride; at += 16) __builtin_prefetch(values + at);
+    }
+    return kept;
 }
 
 /// The part of squared_distance() (knowledge/window.h) that `count` values add, sum for sum.
@@ -179,6 +168,6 @@ Nearest nearest(View const& view, Query const& query, Candidate const* candidate
 
 } // namespace
 
-Kernel kernel() { return {prepare, collect, nearest}; }
+Kernel kernel() { return {pack, summarize, within, promising, nearest}; }
 
 } // namespace lore::exact::LORE_ISA_NAMESPACE

@@ -48,19 +48,17 @@ struct View {
     std::int32_t const* limits;    ///< [differing bits]: largest summary distance of a match
 };
 
-/// A window made ready to be asked for.
+/// A window as it is compared with features. What it points to belongs to the caller.
 struct Query {
-    std::uint64_t* words;          ///< memory of the caller
-    float const* values;           ///< the window's own
-    alignas(32) std::int16_t summary[summary_size];
+    std::uint64_t const* words;    ///< its pattern
+    float const* values;
+    std::int16_t const* summary;   ///< [summary_size]
 };
 
 /// A feature that may lie within the threshold.
 struct Candidate {
     std::int32_t feature;
     std::int32_t differing;        ///< bits
-    std::uint32_t entry;           ///< where it was met, and in which table
-    std::int32_t table;
 };
 
 struct Nearest {
@@ -69,13 +67,17 @@ struct Nearest {
 };
 
 struct Kernel {
-    /// Fills `query` from a window's arrays.
-    void (*prepare)(Shape const&, std::uint16_t const* bits, float const* values, Query& query);
-    /// Writes every feature that the bounds do not rule out, each once, and returns how many. `candidates` has room for
-    /// all features of all tables and one more.
-    int (*collect)(View const&, Query const&, Candidate* candidates);
+    /// The pattern of a window: its binary channels, step after step.
+    void (*pack)(Shape const&, std::uint16_t const* bits, std::uint64_t* words);
+    void (*summarize)(Shape const&, float const* values, std::int16_t* summary);
+    /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how many.
+    /// `out` has room for all features of all tables and one more.
+    int (*within)(View const&, std::uint64_t const* words, Candidate* out);
+    /// Writes those that the summaries do not rule out, and returns how many. `out` has room for all and one more, and
+    /// may be `in`.
+    int (*promising)(View const&, std::int16_t const* summary, Candidate const* in, int count, Candidate* out);
     /// The nearest of the candidates if it is within the threshold; among equals the lowest number.
-    Nearest (*nearest)(View const&, Query const&, Candidate const* candidates, int count);
+    Nearest (*nearest)(View const&, Query const&, Candidate const*, int count);
 };
 
 namespace isa_baseline { Kernel kernel(); }
