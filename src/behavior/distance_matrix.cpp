@@ -38,10 +38,12 @@ std::vector<double> DistanceMatrix::means() const {
 
 void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     assert(0 <= first && last <= matrix.size() && matrix.size() == static_cast<int>(pool.size()));
-    if (kind == DistanceKind::hamming) return measure_hamming_rows(pool, first, last, matrix);
-    if (kind == DistanceKind::trajectory) return measure_trajectory_rows(pool, first, last, matrix);
-    for (int i = first; i < last; ++i)
-        for (int j = 0; j < i; ++j) matrix.set(i, j, distance(kind, *pool[i], *pool[j]));
+    switch (kind) {
+    case DistanceKind::adhoc: return measure_adhoc_rows(pool, first, last, matrix);
+    case DistanceKind::hamming: return measure_hamming_rows(pool, first, last, matrix);
+    case DistanceKind::trajectory: return measure_trajectory_rows(pool, first, last, matrix);
+    case DistanceKind::entropy: return measure_entropy_rows(pool, first, last, matrix);
+    }
 }
 
 } // namespace lore

@@ -37,7 +37,8 @@ double adhoc_distance(Descriptors const& a, Descriptors const& b) {
     for (std::size_t ball = 0; ball < a.balls.size(); ++ball) {
         double const dx = static_cast<double>(a.balls[ball].x) - b.balls[ball].x;
         double const dy = static_cast<double>(a.balls[ball].y) - b.balls[ball].y;
-        sum += dx * dx + dy * dy;
+        sum += dx * dx;
+        sum += dy * dy;
     }
     return std::sqrt(sum);
 }
