@@ -70,8 +70,10 @@ private:
     }
     SvgPoint place(float x, float y) const { return {x_.at(x), y_.at(y)}; }
     SvgPoint place(Point const& p) const { return place(p.x, p.y); }
+    /// Where all values are equal they are at the low end of a scale of 1.
+    double highest() const { return picture_.highest > picture_.lowest ? picture_.highest : picture_.lowest + 1; }
     double share(double value) const {
-        return picture_.highest > picture_.lowest ? (value - picture_.lowest) / (picture_.highest - picture_.lowest) : 1.0;
+        return (value - picture_.lowest) / (highest() - picture_.lowest);
     }
 
     void paint_wall(Rect const& wall, Paint const& paint) {
@@ -111,8 +113,16 @@ private:
 
     void paint_robots() {
         for (std::size_t step = 0; step < picture_.poses.size(); step += steps_between_robots)
-            paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), arena_.robot.radius * scale_, picture_.poses[step].theta,
-                        picture_.carrying[step] != 0);
+            if (!stands_at(step)) paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), arena_.robot.radius * scale_,
+                                              picture_.poses[step].theta, picture_.carrying[step] != 0);
+    }
+    /// True if the robot has not moved since the last picture of it: discs one upon the other would hide that they are
+    /// half transparent.
+    bool stands_at(std::size_t step) const {
+        if (step == 0) return false;
+        Pose const &now = picture_.poses[step], &before = picture_.poses[step - steps_between_robots];
+        bool const same_load = picture_.carrying[step] == picture_.carrying[step - steps_between_robots];
+        return same_load && std::hypot(now.x - before.x, now.y - before.y) < 0.1 * arena_.robot.radius;
     }
     void paint_robot(SvgPoint const& at, double radius, double theta, bool carrying) {
         svg_.circle(at, radius, {.fill = carrying ? robot_red : "#ffffff", .opacity = carrying ? 0.45 : 0.6});
@@ -185,7 +195,7 @@ private:
     void paint_colour_bar() {
         double const x = x_.last + 24, top = y_.first + 30, bottom = y_.last - 30, width = 16;
         constexpr int slices = 64;
-        Axis const axis{picture_.lowest, picture_.highest > picture_.lowest ? picture_.highest : picture_.lowest + 1, bottom, top};
+        Axis const axis{picture_.lowest, highest(), bottom, top};
         for (int i = 0; i < slices; ++i) {
             double const from = bottom + (top - bottom) * (i + 1) / slices, next = bottom + (top - bottom) * i / slices;
             svg_.rect({x, from}, width, next - from + (i > 0 ? 0.5 : 0), {.fill = blue((i + 0.5) / slices)});
@@ -201,12 +211,13 @@ private:
     void paint_strip() {
         double const top = strip_top(), bottom = top + strip_height;
         double const steps = static_cast<double>(picture_.poses.size());
-        double least = std::min(picture_.not_found, picture_.lowest), most = std::max(picture_.highest, picture_.lowest + 1e-9);
+        double least = std::min(picture_.not_found, picture_.lowest), most = highest();
         double const room = 0.06 * (most - least);
         least -= room;
         most += room;
         Axis const time{0, steps, x_.first, x_.last}, value{least, most, bottom, top};
-        for (double const v : ticks(least, most, 8)) {
+        int const count = static_cast<int>(std::clamp(most - least, 5.0, 8.0));   // -1 gets its mark
+        for (double const v : ticks(least, most, count)) {
             svg_.line({x_.first, value.at(v)}, {x_.last, value.at(v)}, {.stroke = pale});
             tick_y(x_.first, value.at(v), tick_label(v));
         }

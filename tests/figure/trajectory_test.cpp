@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace lore {
@@ -58,6 +59,15 @@ TEST(DrawTrajectory, shows_the_robot_every_50_steps_red_with_a_ball) {
     Arena const arena = load_arena("collectball", "source");
     std::string const svg = draw_trajectory(arena, journey.picture);
     EXPECT_EQ(count(svg, red_disc), 2 + 1) << "at steps 100 and 150, and in the legend";
+}
+
+TEST(DrawTrajectory, shows_a_robot_that_stands_once) {
+    Journey journey;
+    std::fill(journey.carrying.begin(), journey.carrying.end(), std::uint8_t{1});
+    Arena const arena = load_arena("collectball", "source");
+    EXPECT_EQ(count(draw_trajectory(arena, journey.picture), red_disc), 4 + 1);
+    std::fill(journey.poses.begin(), journey.poses.end(), Pose{230, 100, 0});
+    EXPECT_EQ(count(draw_trajectory(arena, journey.picture), red_disc), 1 + 1);
 }
 
 TEST(DrawTrajectory, has_neither_strip_nor_colour_bar_without_values) {
