@@ -1,0 +1,118 @@
+#include "support/program.h"
+#include "support/scratch.h"
+#include "support/small_run.h"
+
+#include <lore/archive/trace_file.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+using namespace lore;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+namespace {
+
+class LoreReplay : public ::testing::Test {
+protected:
+    test::Ran run(std::string const& arguments) {
+        return test::run_program("cd " + scratch.path() + " && " LORE_REPLAY " " + arguments, scratch.path());
+    }
+    void expect_done(std::string const& arguments) {
+        test::Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, 0) << arguments << ": " << ran.errors;
+    }
+    /// One line on stderr, that exit code, no other output, and nothing written.
+    void expect_refusal(std::string const& arguments, int exit_code, std::string const& saying) {
+        test::Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+        EXPECT_THAT(ran.errors, StartsWith("lore-replay: "));
+        EXPECT_THAT(ran.errors, HasSubstr(saying));
+        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+        EXPECT_EQ(ran.output, "");
+        EXPECT_FALSE(std::filesystem::exists(scratch.file("never")));
+    }
+    std::string content(std::string const& file) {
+        std::ifstream stream{scratch.file(file), std::ios::binary};
+        return {std::istreambuf_iterator<char>{stream}, {}};
+    }
+    void write(std::string const& file, std::string const& text) { std::ofstream{scratch.file(file), std::ios::binary} << text; }
+
+    Scratch scratch;
+};
+
+} // namespace
+
+TEST_F(LoreReplay, repeats_an_individual_of_a_run) {
+    test::write_small_run(scratch.file("run"));
+    test::Ran const ran = run("run --out replay");
+    EXPECT_EQ(ran.exit_code, 0) << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr("wrote replay/trace.csv"));
+    Arena const arena = load_arena("collectball", "source");
+    RunDirectory const archived = open_run(scratch.file("run"));
+    auto const steps = record_steps(arena, compile(archived.individual("best")->genome), archived.config.episode);
+    EXPECT_EQ(read_trace_csv(scratch.file("replay/trace.csv"), arena), steps);
+    EXPECT_THAT(content("replay/trajectory.svg"), HasSubstr("<svg"));
+    EXPECT_THAT(content("replay/trajectory.png"), HasSubstr("PNG"));
+}
+
+TEST_F(LoreReplay, colours_the_trajectory_by_one_knowledge_base_or_by_the_product_of_several) {
+    test::write_small_run(scratch.file("run"));
+    ASSERT_EQ(test::run_program(LORE_KB " build " + scratch.file("run") + " -q --out " + scratch.file("kb.lorekb"), scratch.path()).exit_code, 0);
+    EXPECT_THAT(run("run --kb kb.lorekb --out one").output, HasSubstr("20 of 20 windows in the knowledge base"))
+        << "its own lineage made the knowledge base";
+    EXPECT_THAT(content("one/trajectory.svg"), HasSubstr("value (balls)"));
+    expect_done("--kb kb.lorekb --kb kb.lorekb run --out two");
+    EXPECT_THAT(content("two/trajectory.svg"), HasSubstr("product of 2 values (balls^2)"));
+}
+
+TEST_F(LoreReplay, drives_by_actions_and_follows_what_it_wrote) {
+    write("actions.csv", "a0,a1,a2\n0.9,0.9,1\n0.9,0.8,1\n0.1,0.9,0\n");
+    expect_done("--actions actions.csv --task target --out driven.csv");
+    expect_done("--follow driven.csv --task target --out followed.csv");
+    EXPECT_EQ(content("followed.csv"), content("driven.csv"));
+    EXPECT_EQ(run("-q --follow driven.csv --task target --out followed.csv").output, "");
+}
+
+TEST_F(LoreReplay, refuses_a_wrong_command_line) {
+    write("actions.csv", "a0,a1,a2\n1,1,1\n");
+    test::write_small_run(scratch.file("run"));
+    expect_refusal("--out never", 2, "nothing to replay");
+    expect_refusal("run --actions actions.csv --task source --out never", 2, "more than one thing");
+    expect_refusal("--actions actions.csv --out never", 2, "need a task");
+    expect_refusal("--actions actions.csv --task suorce --out never", 2, "Did you mean 'source'?");
+    expect_refusal("--actions actions.csv --task source --arena none --out never", 2, "cannot read arena none");
+    expect_refusal("--actions actions.csv --task source --kb kb.lorekb --out never", 2, "go with a run");
+    expect_refusal("run --task source --out never", 2, "knows its own");
+    expect_refusal("run --individual 77.1 --out never", 2, "not in");
+    expect_refusal("run --kb none.lorekb --out never", 1, "none.lorekb");
+    expect_refusal("nowhere --out never", 1, "no run in nowhere");
+    expect_refusal("run --out never --verbose", 2, "--verbose");
+}
+
+TEST_F(LoreReplay, refuses_wrong_files) {
+    write("short.csv", "a0,a1\n1,1\n");
+    write("nan.csv", "a0,a1,a2\n1,nan,1\n");
+    write("few.csv", "a0,a1,a2\n1,1\n");
+    expect_refusal("--actions short.csv --task source --out never", 1, "no column 'a2'");
+    expect_refusal("--actions nan.csv --task source --out never", 1, "line 2, column a1");
+    expect_refusal("--actions few.csv --task source --out never", 1, "2 fields where the header has 3");
+    expect_refusal("--actions none.csv --task source --out never", 2, "no such file");
+    expect_refusal("--follow nan.csv --task source --out never", 1, "no column 'step'");
+}
+
+TEST_F(LoreReplay, refuses_a_run_whose_archive_tells_another_story) {
+    test::write_small_run(scratch.file("run"));
+    Population impostors;
+    impostors.members.push_back({std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99}), nullptr, 0, {}, 0});
+    write_lineage(scratch.file("run/lineage.lore"), impostors);
+    expect_refusal("run --out never", 1, "does not repeat");
+}
+
+TEST_F(LoreReplay, tells_its_version_and_how_to_use_it) {
+    EXPECT_THAT(run("--version").output, StartsWith("lore-replay "));
+    EXPECT_THAT(run("--help").output, HasSubstr("Examples:"));
+}
