@@ -79,7 +79,7 @@ void build(Arguments const& arguments) {
     auto const individual = run.individual(arguments.individual);
     auto const total = static_cast<std::int64_t>(arguments.all ? archived_individuals(run) : lineage_of(*individual).size());
     Progress progress{"building", total, "individuals", arguments.all ? 20000 : 500, arguments.quiet};
-    BuildingObserver const observe = [&](std::int64_t done) { progress.update(done); };
+    BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) { progress.update(done, fmt::format("{} features", features)); };
     Provenance provenance;
     provenance.made_by = made_by(arguments);
     KnowledgeBase const base = arguments.all ? knowledge_of_all(run, config, kind, provenance, observe)

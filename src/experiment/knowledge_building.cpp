@@ -170,7 +170,7 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     KnowledgeBuilder builder{config, make_index(kind, config)};
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         for (std::size_t i = 0; i < batch.size(); ++i) builder.add_individual(windows_of(batch.traces[i], config.window_length), batch.balls[i]);
-        observe(static_cast<std::int64_t>(builder.individuals()));
+        observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
     provenance.index = name(kind);
     provenance.sources = {run.path};

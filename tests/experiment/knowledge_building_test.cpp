@@ -22,7 +22,7 @@ void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
     }
 }
 
-BuildingObserver const nobody = [](std::int64_t) {};
+BuildingObserver const nobody = [](std::int64_t, std::int64_t) {};
 
 } // namespace
 
@@ -40,7 +40,7 @@ TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_
     std::int64_t last = 0;
     Provenance provenance;
     provenance.made_by = "a test";
-    KnowledgeBase const base = knowledge_of_lineage(run, *best, config, IndexKind::exact, provenance, [&](std::int64_t done) { last = done; });
+    KnowledgeBase const base = knowledge_of_lineage(run, *best, config, IndexKind::exact, provenance, [&](std::int64_t done, std::int64_t) { last = done; });
     expect_equal(base, std::move(plain).finish({}));
     EXPECT_EQ(last, static_cast<std::int64_t>(lineage_of(*best).size()));
     EXPECT_EQ(base.provenance().kind, "lineage");
@@ -95,5 +95,5 @@ TEST(KnowledgeOfLineage, stops_cleanly_when_its_observer_throws) {
     Scratch const scratch;
     test::write_small_run(scratch.path());
     RunDirectory const run = open_run(scratch.path());
-    EXPECT_THROW(knowledge_of_all(run, {}, IndexKind::exact, {}, [](std::int64_t) { throw std::runtime_error("enough"); }), std::runtime_error);
+    EXPECT_THROW(knowledge_of_all(run, {}, IndexKind::exact, {}, [](std::int64_t, std::int64_t) { throw std::runtime_error("enough"); }), std::runtime_error);
 }

@@ -1,7 +1,8 @@
 #include "knowledge/traces.h"
 
 #include <lore/core/isa.h>
-#include <lore/knowledge/builder.h>
+#include <lore/knowledge/index.h>
+#include <lore/network/mutation.h>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,38 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     auto const scan_search = scan->search(), exact_search = exact->search();
     for (Window const& window : windows_of_all(lives.asked, config.window_length))
         ASSERT_EQ(exact_search->match(window), scan_search->match(window));
+}
+
+TEST(ExactIndex, equals_the_scan_on_ten_thousand_windows_of_robots_that_evolved) {
+    // Lineages without selection: founders, and after each a line of mutants. Their windows repeat and resemble each
+    // other as those of a run do.
+    Arena const arena = load_arena("collectball", "source");
+    EpisodeConfig episode;
+    episode.steps = 2000;
+    std::vector<Trace> traces;
+    for (std::uint32_t line = 0; line < 8; ++line) {
+        Genome genome = founder(Stream{41, Purpose::founder, 0, line});
+        for (std::uint32_t age = 0; age < 15; ++age) {
+            traces.push_back(record_episode(arena, compile(genome), episode));
+            Stream rng{41, Purpose::mutation, age, line};
+            mutate(genome, {}, {}, rng);
+        }
+    }
+    KnowledgeConfig const config;
+    std::vector<Window> const windows = windows_of_all(traces, config.window_length);
+    ASSERT_GE(windows.size(), 10'000u);
+    auto const scan = make_scan_index(config), exact = make_exact_index(config);
+    auto const scan_search = scan->search(), exact_search = exact->search();
+    std::size_t differences = 0, found = 0;
+    for (Window const& window : windows) {   // as the builder does
+        Match const expected = scan_search->match(window);
+        differences += !(exact_search->match(window) == expected);
+        found += expected.found();
+        if (!expected.found()) { scan->add(window); exact->add(window); }
+    }
+    EXPECT_EQ(differences, 0u);
+    EXPECT_GT(found, 1000u);
+    EXPECT_LT(found, windows.size() - 500);
 }
 
 TEST(ExactIndex, takes_queries_beyond_the_range_of_sensors) {

@@ -8,8 +8,8 @@
 
 namespace lore {
 
-/// Told how many individuals have been taken up so far.
-using BuildingObserver = std::function<void(std::int64_t individuals)>;
+/// Told how many individuals have been taken up so far, and how many features they showed.
+using BuildingObserver = std::function<void(std::int64_t individuals, std::int64_t features)>;
 
 /// The windows of an archived individual are not stored: it is simulated again, which repeats its evaluation exactly.
 /// Both functions throw Error if a repeated evaluation does not deliver the archived number of balls. One thread
