@@ -43,18 +43,35 @@ private:
     std::size_t offset_ = 0;
 };
 
-/// The lanes and the queue of episodes that fills them.
-class LaneRun {
+/// Networks that are all there, handed out by size.
+class AllAtOnce : public EpisodeSource {
 public:
-    LaneRun(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer)
-        : arena_(arena), config_(config), episodes_(episodes), chunk_steps_(chunk_steps), observer_(observer),
-          width_(lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena), queue_(episodes.size()) {
+    explicit AllAtOnce(std::span<Network const> networks) : networks_(networks), queue_(networks.size()) {
         // Networks of similar size side by side: the widest decides what all of them cost.
         std::iota(queue_.begin(), queue_.end(), 0);
         std::stable_sort(queue_.begin(), queue_.end(), [&](int a, int b) {
-            Network const &m = episodes_[static_cast<std::size_t>(a)], &n = episodes_[static_cast<std::size_t>(b)];
+            Network const &m = networks_[static_cast<std::size_t>(a)], &n = networks_[static_cast<std::size_t>(b)];
             return m.hidden_count != n.hidden_count ? m.hidden_count > n.hidden_count : m.edge_count() > n.edge_count();
         });
+    }
+    std::optional<Episode> next() override {
+        if (next_ == queue_.size()) return std::nullopt;
+        int const number = queue_[next_++];
+        return Episode{number, &networks_[static_cast<std::size_t>(number)]};
+    }
+
+private:
+    std::span<Network const> networks_;
+    std::vector<int> queue_;
+    std::size_t next_ = 0;
+};
+
+/// The lanes, filled from a source whenever one is idle.
+class LaneRun {
+public:
+    LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer)
+        : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
+          width_(lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
         values_.resize(rows * continuous_count * columns);
         trail_x_.resize(rows * columns);
@@ -74,8 +91,10 @@ public:
     }
 
     void run() {
-        for (int lane = 0; lane < width_; ++lane) start_next(lane);
-        while (running_ > 0) {
+        for (int lane = 0; lane < width_; ++lane) reset(lane);
+        while (true) {
+            fill_idle_lanes();
+            if (running_ == 0) return;
             if (networks_changed_) lay_networks();
             run_chunk();
         }
@@ -84,13 +103,30 @@ public:
 private:
     struct Lane {
         int episode = -1;      ///< -1: idle
+        Network const* network = nullptr;
         int steps_left = 0;
         int still_steps = 0;
         int valid = 0;         ///< rows of this chunk
         WorldState world;
     };
 
-    void start_next(int lane) {
+    void fill_idle_lanes() {
+        for (int l = 0; l < width_; ++l) {
+            Lane& lane = lanes_[static_cast<std::size_t>(l)];
+            if (lane.episode >= 0) continue;
+            auto const next = source_.next();
+            if (!next) return;
+            lane.episode = next->number;
+            lane.network = next->network;
+            lane.steps_left = config_.steps;
+            networks_changed_ = true;
+            ++running_;
+            observer_.begin(l, lane.episode);
+        }
+    }
+
+    /// Idle, and ready to begin.
+    void reset(int lane) {
         Lane& now = lanes_[static_cast<std::size_t>(lane)];
         now = Lane{};
         networks_changed_ = true;
@@ -102,11 +138,6 @@ private:
         for (int h = 0; h < most_hidden; ++h) hidden(lane, h) = 0.0f;
         now.world = start_world(arena_);
         write_world(lane);
-        if (next_ == queue_.size()) return;
-        now.episode = queue_[next_++];
-        now.steps_left = config_.steps;
-        ++running_;
-        observer_.begin(lane, now.episode);
     }
 
     float& hidden(int lane, int neuron) { return work_.neurons[(sensor_count + neuron) * width_ + lane]; }
@@ -114,7 +145,7 @@ private:
     void lay_networks() {
         std::array<Network const*, most_lanes> networks{};
         for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
-            if (lanes_[lane].episode >= 0) networks[lane] = &episodes_[static_cast<std::size_t>(lanes_[lane].episode)];
+            networks[lane] = lanes_[lane].network;
         layout_.lay({networks.data(), static_cast<std::size_t>(width_)}, width_);
         work_.networks = layout_.view();
         networks_changed_ = false;
@@ -184,7 +215,7 @@ private:
                 continue;
             }
             --running_;
-            start_next(l);
+            reset(l);
         }
     }
 
@@ -206,15 +237,13 @@ private:
 
     Arena const& arena_;
     EpisodeConfig const& config_;
-    std::span<Network const> episodes_;
+    EpisodeSource& source_;
     int chunk_steps_;
     LaneObserver& observer_;
     int width_;
     RunSteps run_steps_;
     LaneArenaLayout arena_layout_;
     LaneNetworkLayout layout_;
-    std::vector<int> queue_;
-    std::size_t next_ = 0;
     int running_ = 0;
     bool networks_changed_ = true;
     std::array<Lane, most_lanes> lanes_;
@@ -226,9 +255,14 @@ private:
 
 } // namespace
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer) {
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer) {
     assert(chunk_steps >= 1 && config.steps >= 1);
-    LaneRun{arena, config, episodes, chunk_steps, observer}.run();
+    LaneRun{arena, config, source, chunk_steps, observer}.run();
+}
+
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer) {
+    AllAtOnce source{episodes};
+    run_in_lanes(arena, config, source, chunk_steps, observer);
 }
 
 } // namespace lore

@@ -9,6 +9,9 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace lore {
 
@@ -29,11 +32,11 @@ ChunkKernel const& kernel_for(Isa isa) {
 /// A chunk's buffers should stay in the innermost cache: 40 steps of 16 lanes are 22 kB.
 constexpr int usual_chunk_steps = 40;
 
-/// Turns what the lanes do into Evaluations, chunk by chunk.
-class Recorder : public LaneObserver {
+/// Turns what the lanes do into Evaluations, chunk by chunk, and keeps them busy from a feed.
+class Recorder : public LaneObserver, public EpisodeSource {
 public:
-    Recorder(EvaluationContext const& context, std::span<Evaluation> evaluations)
-        : context_(context), evaluations_(evaluations), kernel_(kernel_for(active_isa())) {
+    Recorder(EvaluationContext const& context, EvaluationFeed& feed)
+        : context_(context), feed_(feed), kernel_(kernel_for(active_isa())) {
         if (context.shaper) {
             window_length_ = context.shaper->base().config().window_length;
             reader_.emplace(context.shaper->reader());
@@ -45,9 +48,16 @@ public:
         return window_length_ == 0 ? usual_chunk_steps : window_length_ * std::max(1, usual_chunk_steps / window_length_);
     }
 
-    void begin(int lane, int episode) override {
+    std::optional<Episode> next() override {
+        auto const item = feed_.next();
+        if (!item) return std::nullopt;
+        Network const& network = networks_[item->ticket] = compile(*item->genome);
+        return Episode{item->ticket, &network};
+    }
+
+    void begin(int lane, int ticket) override {
         Lane& now = at(lane);
-        now.evaluation = &evaluations_[static_cast<std::size_t>(episode)];
+        now.ticket = ticket;
         now.steps = 0;
         now.shaping = {};
         std::size_t const steps = static_cast<std::size_t>(context_.episode.steps);
@@ -84,6 +94,7 @@ public:
             now.steps += rows;
         }
         last_ = chunk;
+        feed_.pulse();
     }
 
     void rest(int lane, int steps) override {
@@ -100,7 +111,7 @@ public:
 
     void end(int lane, WorldState const& world) override {
         Lane& now = at(lane);
-        Evaluation& e = *now.evaluation;
+        Evaluation e;
         e.balls = world.collected;
         e.shaping = now.shaping.best;
         Descriptors& d = e.descriptors;
@@ -114,11 +125,13 @@ public:
         for (std::uint16_t const word : d.bits)
             for (int c = 0; c < binary_count; ++c) histograms.ones[static_cast<std::size_t>(c)] += word >> c & 1u;
         d.entropies = entropies(histograms, now.steps);
+        networks_.erase(now.ticket);
+        feed_.deliver(now.ticket, std::move(e));
     }
 
 private:
     struct Lane {
-        Evaluation* evaluation = nullptr;
+        int ticket = 0;
         int steps = 0;
         std::vector<std::uint16_t> bits;
         std::vector<Tile> path;
@@ -150,7 +163,8 @@ private:
     }
 
     EvaluationContext const& context_;
-    std::span<Evaluation> evaluations_;
+    EvaluationFeed& feed_;
+    std::map<int, Network> networks_;    ///< of those under way; a map, so that they stay where they are
     ChunkKernel const& kernel_;
     int window_length_ = 0;
     std::optional<Shaper::Reader> reader_;
@@ -161,16 +175,45 @@ private:
     std::vector<std::uint16_t> idle_;    ///< where words of idle lanes go
 };
 
+/// Genomes that are all there, handed out by size: lanes cost what the widest network among them costs.
+class AllAtOnce : public EvaluationFeed {
+public:
+    explicit AllAtOnce(std::span<Genome const* const> genomes) : evaluations(genomes.size()), genomes_(genomes), order_(genomes.size()) {
+        std::iota(order_.begin(), order_.end(), 0);
+        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return larger(*at(a), *at(b)); });
+    }
+    std::optional<Item> next() override {
+        if (next_ == order_.size()) return std::nullopt;
+        int const ticket = order_[next_++];
+        return Item{ticket, at(ticket)};
+    }
+    void deliver(int ticket, Evaluation evaluation) override { evaluations[static_cast<std::size_t>(ticket)] = std::move(evaluation); }
+
+    std::vector<Evaluation> evaluations;
+
+private:
+    Genome const* at(int ticket) const { return genomes_[static_cast<std::size_t>(ticket)]; }
+
+    std::span<Genome const* const> genomes_;
+    std::vector<int> order_;
+    std::size_t next_ = 0;
+};
+
 } // namespace
 
+bool larger(Genome const& a, Genome const& b) {
+    return a.biases.size() != b.biases.size() ? a.biases.size() > b.biases.size() : a.edges.size() > b.edges.size();
+}
+
+void evaluate_stream(EvaluationContext const& context, EvaluationFeed& feed) {
+    Recorder recorder{context, feed};
+    run_in_lanes(context.arena, context.episode, recorder, recorder.chunk_steps(), recorder);
+}
+
 std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::span<Genome const* const> genomes) {
-    std::vector<Network> networks;
-    networks.reserve(genomes.size());
-    for (Genome const* genome : genomes) networks.push_back(compile(*genome));
-    std::vector<Evaluation> evaluations(genomes.size());
-    Recorder recorder{context, evaluations};
-    run_in_lanes(context.arena, context.episode, networks, recorder.chunk_steps(), recorder);
-    return evaluations;
+    AllAtOnce feed{genomes};
+    evaluate_stream(context, feed);
+    return std::move(feed.evaluations);
 }
 
 } // namespace lore

@@ -3,6 +3,7 @@
 #include <lore/episode/episode.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace lore {
@@ -35,8 +36,23 @@ public:
     virtual void end(int lane, WorldState const& final_world) = 0;
 };
 
+/// Hands out episodes while others run.
+class EpisodeSource {
+public:
+    virtual ~EpisodeSource() = default;
+    struct Episode {
+        int number = 0;                    ///< what the observer is told
+        Network const* network = nullptr;  ///< valid until the observer's end
+    };
+    /// The next episode, if there is one now; asked again before every chunk while a lane is idle.
+    virtual std::optional<Episode> next() = 0;
+};
+
 /// Runs all episodes, several at once in the lanes of the active instruction set (core/isa.h), each equal to
 /// run_episode to the bit: the fast path. Shows `chunk_steps` steps at a time; every episode starts with a new chunk.
 void run_in_lanes(Arena const&, EpisodeConfig const&, std::span<Network const> episodes, int chunk_steps, LaneObserver&);
+/// The same for episodes that come one by one, until none runs and the source has none. Cheapest if networks of similar
+/// size follow each other.
+void run_in_lanes(Arena const&, EpisodeConfig const&, EpisodeSource&, int chunk_steps, LaneObserver&);
 
 } // namespace lore

@@ -31,6 +31,26 @@ Evaluation evaluate_plainly(EvaluationContext const&, Genome const&);
 /// The fast path: many at once, in lanes; equal to the plain one to the bit.
 std::vector<Evaluation> evaluate_batch(EvaluationContext const&, std::span<Genome const* const>);
 
+/// Genomes that come, and evaluations that go, while others are under way.
+class EvaluationFeed {
+public:
+    virtual ~EvaluationFeed() = default;
+    struct Item {
+        int ticket = 0;                  ///< told back with the evaluation
+        Genome const* genome = nullptr;  ///< read at once
+    };
+    /// The next genome, if there is one now; asked again every few microseconds while a lane is idle. Cheapest if
+    /// genomes of similar size follow each other.
+    virtual std::optional<Item> next() = 0;
+    virtual void deliver(int ticket, Evaluation) = 0;
+    /// Called every few microseconds, for whoever has other things to look after.
+    virtual void pulse() {}
+};
+/// The order in which a feed should hand out what it has.
+bool larger(Genome const&, Genome const&);
+/// The same as evaluate_batch, until nothing is under way and the feed has no more.
+void evaluate_stream(EvaluationContext const&, EvaluationFeed&);
+
 /// Genomes in, evaluations out, whoever does the work. Evolution sees only this.
 class Evaluator {
 public:
