@@ -7,6 +7,38 @@ namespace lore {
 namespace {
 
 constexpr std::size_t most_batch = 1u << 20;
+constexpr std::size_t longest_evaluation = 1u << 24;   ///< steps; runs could claim any number of them
+
+/// Words of consecutive steps are mostly equal: as runs they take a tenth. Written out where that is shorter.
+void put_words(ByteWriter& out, std::vector<std::uint16_t> const& words) {
+    ByteWriter runs;
+    for (std::size_t i = 0; i < words.size();) {
+        std::size_t end = i + 1;
+        while (end < words.size() && words[end] == words[i]) ++end;
+        runs.put_varint(end - i);
+        runs.put(words[i]);
+        i = end;
+    }
+    bool const as_runs = runs.size() < words.size() * sizeof(std::uint16_t);
+    out.put(static_cast<std::uint8_t>(as_runs));
+    out.put_varint(words.size());
+    if (as_runs) out.put_all(std::span{runs.bytes()});
+    else out.put_all(std::span{words});
+}
+
+std::vector<std::uint16_t> get_words(ByteReader& in) {
+    bool const as_runs = in.get<std::uint8_t>() != 0;
+    std::size_t const count = in.get_count(longest_evaluation);
+    if (!as_runs) return in.get_all<std::uint16_t>(count);
+    std::vector<std::uint16_t> words;
+    words.reserve(count);
+    while (words.size() < count) {
+        std::size_t const run = in.get_count(count - words.size());
+        if (run == 0) in.fail("a run of no length");
+        words.insert(words.end(), run, in.get<std::uint16_t>());
+    }
+    return words;
+}
 
 } // namespace
 
@@ -51,10 +83,9 @@ Bytes pack_evaluations(std::span<Evaluation const> evaluations) {
         out.put(std::int32_t{evaluation.balls});
         out.put(evaluation.shaping);
         out.put_varint(descriptors.balls.size());
-        out.put_varint(descriptors.bits.size());
         out.put_varint(descriptors.path.size());
         out.put_all(std::span{descriptors.balls});
-        out.put_all(std::span{descriptors.bits});
+        put_words(out, descriptors.bits);
         out.put_all(std::span{descriptors.path});
         out.put(descriptors.entropies);
     }
@@ -69,10 +100,9 @@ std::vector<Evaluation> unpack_evaluations(std::span<std::byte const> bytes) {
         evaluation.balls = in.get<std::int32_t>();
         evaluation.shaping = in.get<double>();
         std::size_t const balls = in.get_count(most_balls);
-        std::size_t const bits = in.get_count(bytes.size());
         std::size_t const path = in.get_count(bytes.size());
         descriptors.balls = in.get_all<Point>(balls);
-        descriptors.bits = in.get_all<std::uint16_t>(bits);
+        descriptors.bits = get_words(in);
         descriptors.path = in.get_all<Tile>(path);
         descriptors.entropies = in.get<std::array<double, channel_count>>();
     }

@@ -11,12 +11,20 @@
 namespace lore {
 
 /// What a message is; also its MPI tag, so that a receiver asks for what it can take and nothing else.
-enum class MessageKind : int { evaluate = 1, evaluated, rows, distances, failure, stop, times };
+enum class MessageKind : int {
+    evaluate = 1,   ///< genomes; unit: the ticket of the first, the others follow
+    evaluated,      ///< evaluations; unit: likewise
+    rows,           ///< a range of rows of a distance matrix
+    distances,      ///< the same, measured
+    failure,        ///< unit: the ticket of an evaluation that threw, or that of rows; payload: the reason
+    stop,           ///< go home
+    times           ///< what a worker spent its time on
+};
 
 struct Message {
     MessageKind kind;
     int sender = 0;
-    int unit = 0;   ///< which part of the request it belongs to
+    int unit = 0;   ///< which part of a request it belongs to
     Bytes payload;
 };
 

@@ -116,6 +116,7 @@ private:
             if (lane.episode >= 0) continue;
             auto const next = source_.next();
             if (!next) return;
+            reset(l);   // the kernel moves idle lanes too
             lane.episode = next->number;
             lane.network = next->network;
             lane.steps_left = config_.steps;
@@ -125,7 +126,7 @@ private:
         }
     }
 
-    /// Idle, and ready to begin.
+    /// Idle, at the start.
     void reset(int lane) {
         Lane& now = lanes_[static_cast<std::size_t>(lane)];
         now = Lane{};

@@ -63,10 +63,8 @@ EvaluationContext context_of(WorkOrder const& order) {
     return context;
 }
 
-BatchEvaluation evaluation_in(EvaluationContext context) {
-    return [context = std::make_shared<EvaluationContext const>(std::move(context))](std::span<Genome const* const> genomes) {
-        return evaluate_batch(*context, genomes);
-    };
+StreamEvaluation evaluation_in(EvaluationContext context) {
+    return [context = std::make_shared<EvaluationContext const>(std::move(context))](EvaluationFeed& feed) { evaluate_stream(*context, feed); };
 }
 
 std::vector<std::string> give_order(Session const& session, WorkOrder const& order) {
@@ -90,7 +88,7 @@ void work_for_rank_0(Session const& session) {
     Bytes const order = session.world().broadcast({});
     if (order.empty()) return;
     std::string answer;
-    BatchEvaluation evaluation;
+    StreamEvaluation evaluation;
     try {
         evaluation = evaluation_in(context_of(unpack(order)));
         answer = std::string{ready} + host_name();

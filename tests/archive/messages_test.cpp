@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace lore;
 
 namespace {
@@ -37,7 +39,21 @@ TEST(Messages, carry_genomes_and_evaluations_unchanged) {
         auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers(genomes));
         Bytes const bytes = pack_evaluations(evaluations);
         EXPECT_EQ(unpack_evaluations(bytes), evaluations);
+        // The pretended bits change at every step: written out, they are no longer than in memory.
         if (count > 0) { EXPECT_LT(bytes.size() / static_cast<std::size_t>(count), 9000u); }
+    }
+}
+
+TEST(Messages, carry_bits_that_repeat_in_little_space) {
+    Stream rng{1, Purpose::test};
+    for (int length : {0, 1, 2, 127, 128, 129, 4000}) {
+        Evaluation evaluation;
+        while (static_cast<int>(evaluation.descriptors.bits.size()) < length)
+            evaluation.descriptors.bits.insert(evaluation.descriptors.bits.end(), std::min<std::size_t>(1 + rng.below(300), static_cast<std::size_t>(length) - evaluation.descriptors.bits.size()),
+                                               static_cast<std::uint16_t>(rng.below(1u << 15)));
+        Bytes const bytes = pack_evaluations({&evaluation, 1});
+        EXPECT_EQ(unpack_evaluations(bytes).at(0), evaluation);
+        EXPECT_LT(bytes.size(), 400u);
     }
 }
 

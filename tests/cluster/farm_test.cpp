@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <deque>
 
 using namespace lore;
 
@@ -16,13 +17,30 @@ constexpr int steps = 4000;   // so that messages have the size of real ones
 
 std::vector<Evaluation> pretend(std::span<Genome const* const> genomes) { return PretendedEvaluator{steps}.evaluate(genomes); }
 
+/// Several under way at once, as in lanes.
+void pretend_stream(EvaluationFeed& feed) {
+    constexpr std::size_t lanes = 5;
+    std::deque<std::pair<int, Genome>> under_way;
+    while (true) {
+        while (under_way.size() < lanes) {
+            auto const item = feed.next();
+            if (!item) break;
+            under_way.emplace_back(item->ticket, *item->genome);
+        }
+        if (under_way.empty()) return;
+        feed.deliver(under_way.front().first, PretendedEvaluator::pretend(under_way.front().second, steps));
+        under_way.pop_front();
+        feed.pulse();
+    }
+}
+
 /// Rank 0 says what comes next; see main.
 void call_workers(char word) { session->world().broadcast({static_cast<std::byte>(word)}); }
 
 /// A Farm whose workers have been called to serve.
 struct Served {
     Served() { call_workers('s'); }
-    Farm farm{session->world(), pretend};
+    Farm farm{session->world(), pretend_stream};
 };
 
 std::vector<Genome> founders(int count, std::uint32_t generation) {
@@ -107,7 +125,7 @@ int main(int argc, char** argv) {
     }
     while (true) {
         switch (std::to_integer<char>(session->world().broadcast({}).at(0))) {
-        case 's': serve(session->world(), pretend); break;
+        case 's': serve(session->world(), pretend_stream); break;
         case 'g': session->world().gather("rank " + std::to_string(session->rank())); break;
         case '0': ::unsetenv("LORE_TEST_DELAY"); break;
         case '3': ::setenv("LORE_TEST_DELAY", "3", 1); break;

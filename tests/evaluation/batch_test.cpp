@@ -191,6 +191,39 @@ TEST_P(EvaluateBatch, serves_every_batch_size) {
     use_isa(before);
 }
 
+TEST_P(EvaluateBatch, gives_the_same_from_a_feed_that_stutters) {
+    /// Has nothing to hand out most of the time, so that lanes idle between episodes.
+    class StutteringFeed : public EvaluationFeed {
+    public:
+        explicit StutteringFeed(std::vector<Genome> const& genomes) : results(genomes.size()), genomes_(genomes) {}
+        std::optional<Item> next() override {
+            if (next_ == genomes_.size() || (under_way_ > 0 && rng_.below(20) != 0)) return std::nullopt;
+            ++under_way_;
+            int const ticket = static_cast<int>(next_++);
+            return Item{ticket, &genomes_[static_cast<std::size_t>(ticket)]};
+        }
+        void deliver(int ticket, Evaluation evaluation) override {
+            --under_way_;
+            results[static_cast<std::size_t>(ticket)] = std::move(evaluation);
+        }
+        std::vector<Evaluation> results;
+
+    private:
+        std::vector<Genome> const& genomes_;
+        std::size_t next_ = 0;
+        int under_way_ = 0;
+        Stream rng_{1, Purpose::test};
+    };
+    EvaluationContext const context{arena(GetParam()), {.steps = 700}, std::nullopt};
+    auto const genomes = population(40, 5);
+    for (Isa isa : usable_isas()) {
+        use_isa(isa);
+        StutteringFeed feed{genomes};
+        evaluate_stream(context, feed);
+        for (std::size_t i = 0; i < genomes.size(); ++i) EXPECT_EQ(feed.results[i], evaluate_plainly(context, genomes[i])) << i << " " << name(isa);
+    }
+}
+
 TEST_P(EvaluateBatch, gives_the_shaping_value_of_a_knowledge_base) {
     EvaluationContext const context{arena(GetParam()), {2000, 0}, shaper_from(GetParam(), {}, 12)};
     auto const genomes = population(40, 3);

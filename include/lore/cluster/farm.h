@@ -11,8 +11,8 @@
 
 namespace lore {
 
-/// How a rank evaluates: a batch at a time, a pure function (evaluate_batch with a context bound to it).
-using BatchEvaluation = std::function<std::vector<Evaluation>(std::span<Genome const* const>)>;
+/// How a rank evaluates: evaluate_stream with a context bound to it.
+using StreamEvaluation = std::function<void(EvaluationFeed&)>;
 
 /// An evaluation that threw, on whatever rank.
 class EvaluationFailure : public Error {
@@ -37,12 +37,12 @@ struct RankTimes {
 
 /// The ranks of a communicator as one Evaluator, on rank 0. The others are in serve().
 ///
-/// A request is cut into units of about the lane width, the largest networks first. Every worker holds one more unit than
-/// it works on; rank 0 evaluates too, and polls between units. Results come back in the order of the request whoever
-/// made them, so that any number of ranks gives what one gives.
+/// Rank 0 hands genomes to its own lanes one by one and to the others a few at a time, whenever somebody runs short; it
+/// looks after them every few microseconds, so that all lanes of all ranks are busy until the last genome is taken.
+/// Results come back in the order of the request whoever made them: any number of ranks gives what one gives.
 class Farm : public Evaluator {
 public:
-    Farm(Communicator, BatchEvaluation);
+    Farm(Communicator, StreamEvaluation);
     /// Stops the workers, unless broken().
     ~Farm() override;
 
@@ -57,13 +57,12 @@ public:
     std::vector<RankTimes> stop();
 
 private:
-    struct Job;
     struct State;
-    void distribute(Job const&);
+    class OwnFeed;
     std::unique_ptr<State> state_;
 };
 
 /// Works for the Farm on rank 0 until it stops.
-void serve(Communicator const&, BatchEvaluation const&);
+void serve(Communicator const&, StreamEvaluation const&);
 
 } // namespace lore

@@ -1,0 +1,88 @@
+#include <lore/cluster/farm.h>
+
+#include "guarded_stream.h"
+#include "post.h"
+#include "shared_rows.h"
+
+#include <lore/archive/messages.h>
+#include <lore/core/stopwatch.h>
+
+#include <deque>
+
+namespace lore {
+
+namespace {
+
+constexpr int pulses_a_look = 8;
+
+std::span<std::byte const> bytes_of(std::string const& text) { return std::as_bytes(std::span{text.data(), text.size()}); }
+
+/// Feeds this rank's lanes with what rank 0 sends, also while they run, and sends back what comes out.
+class PostedFeed : public EvaluationFeed {
+public:
+    explicit PostedFeed(Post& post) : post_(post) {}
+
+    void take(Message const& message) {
+        int ticket = message.unit;
+        for (Genome& genome : unpack_genomes(message.payload)) waiting_.push_back({ticket++, std::move(genome)});
+    }
+    std::optional<Item> next() override {
+        if (waiting_.empty()) look();
+        if (waiting_.empty()) return std::nullopt;
+        present_ = std::move(waiting_.front());
+        waiting_.pop_front();
+        return Item{present_.ticket, &present_.genome};
+    }
+    void deliver(int ticket, Evaluation evaluation) override { post_.send(0, MessageKind::evaluated, ticket, pack_evaluations({&evaluation, 1})); }
+    void pulse() override {
+        if (++pulses_ % pulses_a_look == 0) look();
+    }
+
+private:
+    void look() {
+        MessageKind const kinds[]{MessageKind::evaluate};
+        while (auto message = post_.receive(kinds)) take(*message);
+    }
+
+    struct Waiting {
+        int ticket = 0;
+        Genome genome;
+    };
+    Post& post_;
+    std::deque<Waiting> waiting_;
+    Waiting present_;
+    unsigned pulses_ = 0;
+};
+
+} // namespace
+
+void serve(Communicator const& communicator, StreamEvaluation const& evaluation) {
+    StreamEvaluation const evaluate = with_test_hooks(evaluation, communicator.rank());
+    Post post{communicator.handle().comm};
+    RankTimes times;
+    DistanceMatrix scratch;
+    MessageKind const kinds[]{MessageKind::evaluate, MessageKind::rows, MessageKind::stop};
+    while (true) {
+        Stopwatch watch;
+        Message const message = post.await(kinds);
+        times.waiting += watch.lap();
+        if (message.kind == MessageKind::stop) break;
+        if (message.kind == MessageKind::evaluate) {
+            PostedFeed feed{post};
+            feed.take(message);
+            if (auto const culprit = evaluate_guarded(evaluate, feed)) post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
+            times.evaluation += watch.lap();
+        } else {
+            try {
+                measure_for_rank_0(post, message, scratch);
+            } catch (std::exception const& error) {
+                post.send(0, MessageKind::failure, message.unit, bytes_of(error.what()));
+            }
+            times.distances += watch.lap();
+        }
+    }
+    post.send(0, MessageKind::times, 0, std::as_bytes(std::span{&times, 1}));
+    post.flush();
+}
+
+} // namespace lore
