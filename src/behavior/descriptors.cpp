@@ -53,7 +53,8 @@ Tile tile_of(Arena const& arena, float x, float y) {
 std::array<double, channel_count> entropies(ChannelHistograms const& histograms, int steps) {
     std::array<double, channel_count> result{};
     if (steps == 0) return result;
-    for (int c = 0; c < continuous_count; ++c) result[continuous_channels[c]] = entropy(histograms.continuous[c], steps);
+    for (int c = 0; c < continuous_count; ++c)
+        result[continuous_channels[c]] = entropy(histograms.continuous[c], steps);
     for (int c = 0; c < binary_count; ++c) {
         std::uint32_t const ones = histograms.ones[c];
         result[binary_channels[c]] = entropy<2>({static_cast<std::uint32_t>(steps) - ones, ones}, steps);

@@ -36,7 +36,8 @@ std::vector<double> DistanceMatrix::means() const {
     return sums;
 }
 
-void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
+void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last,
+                  DistanceMatrix& matrix) {
     assert(0 <= first && last <= matrix.size() && matrix.size() == static_cast<int>(pool.size()));
     switch (kind) {
     case DistanceKind::adhoc: return measure_adhoc_rows(pool, first, last, matrix);

@@ -64,7 +64,8 @@ double trajectory_distance(Descriptors const& a, Descriptors const& b) {
         for (std::size_t j = 1; j < columns; ++j) {
             Tile const here_a = a.path[i - 1], here_b = b.path[j - 1];
             int const substitution = substitution_cost(here_a, here_b);
-            int least = std::min({cost(i - 1, j) + deletion_cost, cost(i, j - 1) + insertion_cost, cost(i - 1, j - 1) + substitution});
+            int least = std::min(
+                {cost(i - 1, j) + deletion_cost, cost(i, j - 1) + insertion_cost, cost(i - 1, j - 1) + substitution});
             if (i > 1 && j > 1 && here_a == b.path[j - 2] && a.path[i - 2] == here_b)
                 least = std::min(least, cost(i - 2, j - 2) + substitution);
             cost(i, j) = least;

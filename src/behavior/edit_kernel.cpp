@@ -1,7 +1,7 @@
 // The edit distance of one path to as many others as a vector has bytes. Compiled once per instruction set.
 //
-// With D(i, j) the cost of turning the first i tiles of the path into the first j of the other, only differences between
-// neighbouring cells are kept (the idea of Myers 1999, carried over from bits to bytes):
+// With D(i, j) the cost of turning the first i tiles of the path into the first j of the other, only differences
+// between neighbouring cells are kept (the idea of Myers 1999, carried over from bits to bytes):
 //
 //   across(i, j)   = D(i, j) - D(i, j-1) - 12      in -24 .. 0
 //   down(i, j)     = D(i, j) - D(i-1, j) - 12      in -24 .. 0
@@ -13,8 +13,8 @@
 //   down(i, j)     = diagonal(i, j) - across(i-1, j)
 //   across(i, j)   = diagonal(i, j) - down(i, j-1)
 //
-// The ranges follow by induction: D never falls along a diagonal (for the transposition because diagonal(i-1, j-1) is at
-// most the substitution of the same two tiles), and never rises by more than 12 between neighbours. A border of the
+// The ranges follow by induction: D never falls along a diagonal (for the transposition because diagonal(i-1, j-1) is
+// at most the substitution of the same two tiles), and never rises by more than 12 between neighbours. A border of the
 // matrix is 0, and so is a cell outside the band: 0 exceeds every s - 24, so it is never chosen.
 #include "edit_kernel.h"
 
@@ -67,8 +67,8 @@ LORE_INLINE std::int8_t* substitutions(PathGroup const& group, int tile) {
 
 /// Row i of the matrix, columns [first, last].
 template <bool transposable>
-LORE_INLINE void advance(std::int8_t const* substitution, std::int8_t const* substitution_above, int transposition, int first,
-                         int last, EditRows const& rows) {
+LORE_INLINE void advance(std::int8_t const* substitution, std::int8_t const* substitution_above, int transposition,
+                         int first, int last, EditRows const& rows) {
     Bytes down{};
     Bytes diagonal_before = load(rows.diagonal + first * width);   // of the row above, one column to the left
     for (int j = first; j <= last; ++j) {
@@ -77,7 +77,8 @@ LORE_INLINE void advance(std::int8_t const* substitution, std::int8_t const* sub
         Bytes const cost = load(substitution + here);
         Bytes best = least(across, cost);
         if constexpr (transposable) {
-            auto const crossed = (load(substitution + here - width) == origin) & (load(substitution_above + here) == origin);
+            auto const crossed =
+                (load(substitution + here - width) == origin) & (load(substitution_above + here) == origin);
             best = least(best, (Bytes)crossed & (static_cast<std::int8_t>(transposition) - diagonal_before));
             diagonal_before = load(rows.diagonal + here);
         }
@@ -88,12 +89,14 @@ LORE_INLINE void advance(std::int8_t const* substitution, std::int8_t const* sub
     }
 }
 
-LORE_INLINE void advance_row(PathGroup const& group, std::uint8_t const* path, int i, int first, int last, EditRows const& rows) {
+LORE_INLINE void advance_row(PathGroup const& group, std::uint8_t const* path, int i, int first, int last,
+                             EditRows const& rows) {
     std::int8_t const* const substitution = substitutions(group, path[i]);
     // Only where some lane left the present tile for the one before can a transposition apply; it never pays where both
     // are one tile, because then the substitution is free.
     if (i > 0 && path[i] != path[i - 1] && group.follows[path[i] * tile_count + path[i - 1]])
-        advance<true>(substitution, substitutions(group, path[i - 1]), substitution_cost(path[i], path[i - 1]) + 2 * origin, first, last, rows);
+        advance<true>(substitution, substitutions(group, path[i - 1]),
+                      substitution_cost(path[i], path[i - 1]) + 2 * origin, first, last, rows);
     else advance<false>(substitution, nullptr, 0, first, last, rows);
 }
 
@@ -101,9 +104,7 @@ LORE_INLINE void clear(std::int8_t* rows, int columns) {
     for (int j = 0; j <= columns; ++j) lanes::store(rows + j * width, Bytes{});
 }
 
-} // namespace
-
-static void prepare(PathGroup const& group) {
+void prepare(PathGroup const& group) {
     for (int k = 0; k < tile_count * tile_count; ++k) group.follows[k] = false;
     for (int j = 1; j < group.columns; ++j)
         for (int lane = 0; lane < width; ++lane)
@@ -118,20 +119,22 @@ static void prepare(PathGroup const& group) {
         }
         for (int tile = 0; tile < tile_count; ++tile) {
             // As variables: under UBSan g++ takes the cast expressions for ints, which it will not narrow to bytes.
-            std::int8_t const column = static_cast<std::int8_t>(tile % tiles_per_side), row = static_cast<std::int8_t>(tile / tiles_per_side);
+            std::int8_t const column = static_cast<std::int8_t>(tile % tiles_per_side);
+            std::int8_t const row = static_cast<std::int8_t>(tile / tiles_per_side);
             Bytes const dx = x - column, dy = y - row;
-            lanes::store(substitutions(group, tile) + (j + 1) * width, (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy) + static_cast<std::int8_t>(origin));
+            lanes::store(substitutions(group, tile) + (j + 1) * width,
+                         (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy) + static_cast<std::int8_t>(origin));
         }
     }
 }
 
-static void diagonal_costs(PathGroup const& group, std::uint8_t const* path, std::int32_t* costs) {
+void diagonal_costs(PathGroup const& group, std::uint8_t const* path, std::int32_t* costs) {
     Tally tally{costs};
     for (int j = 0; j < group.columns; ++j) tally.add(load(substitutions(group, path[j]) + (j + 1) * width));
     tally.close();
 }
 
-static void banded_costs(PathGroup const& group, std::uint8_t const* path, int band, EditRows rows, std::int32_t* costs) {
+void banded_costs(PathGroup const& group, std::uint8_t const* path, int band, EditRows rows, std::int32_t* costs) {
     clear(rows.across, group.columns);
     clear(rows.diagonal, group.columns);
     Tally tally{costs};
@@ -144,7 +147,8 @@ static void banded_costs(PathGroup const& group, std::uint8_t const* path, int b
     tally.close();
 }
 
-static void full_costs(PathGroup const& group, std::uint8_t const* path, int length, int const* lane_lengths, EditRows rows, std::int32_t* costs) {
+void full_costs(PathGroup const& group, std::uint8_t const* path, int length, int const* lane_lengths, EditRows rows,
+                std::int32_t* costs) {
     clear(rows.across, group.columns);
     clear(rows.diagonal, group.columns);
     for (int i = 0; i < length; ++i) advance_row(group, path, i, 0, group.columns - 1, rows);
@@ -156,7 +160,9 @@ static void full_costs(PathGroup const& group, std::uint8_t const* path, int len
     }
 }
 
-extern EditKernel const edit;
-EditKernel const edit{width, prepare, diagonal_costs, banded_costs, full_costs};
+} // namespace
+
+EditKernel edit();
+EditKernel edit() { return {width, prepare, diagonal_costs, banded_costs, full_costs}; }
 
 } // namespace lore::LORE_ISA_NAMESPACE

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/behavior/descriptors.h>
+#include <lore/behavior/tile.h>
 #include <lore/core/isa.h>
 
 #include <cstdint>
@@ -31,10 +31,12 @@ struct EditKernel {
     /// Sum of the substitution costs of the path and each lane's, step by step: at least their distance [twelfths].
     /// Precondition: equal lengths.
     void (*diagonal_costs)(PathGroup const&, std::uint8_t const* path, std::int32_t* costs);
-    /// Edit distances [twelfths] of the path to each lane's, of equal lengths, by scripts that stay within |i - j| <= band.
+    /// Edit distances [twelfths] of the path to each lane's, of equal lengths, by scripts that stay within
+    /// |i - j| <= band.
     void (*banded_costs)(PathGroup const&, std::uint8_t const* path, int band, EditRows, std::int32_t* costs);
     /// The same for any lengths and all scripts.
-    void (*full_costs)(PathGroup const&, std::uint8_t const* path, int length, int const* lane_lengths, EditRows, std::int32_t* costs);
+    void (*full_costs)(PathGroup const&, std::uint8_t const* path, int length, int const* lane_lengths, EditRows,
+                       std::int32_t* costs);
 };
 
 EditKernel edit_kernel(Isa);

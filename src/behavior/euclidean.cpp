@@ -28,7 +28,8 @@ namespace {
 /// Points of equally many coordinates, column by column as the kernel reads them.
 class Points {
 public:
-    Points(int count, int coordinates) : count_(count), coordinates_(coordinates), columns_(static_cast<std::size_t>(count) * coordinates) {}
+    Points(int count, int coordinates)
+        : count_(count), coordinates_(coordinates), columns_(static_cast<std::size_t>(count) * coordinates) {}
 
     double& coordinate(int point, int c) { return columns_[static_cast<std::size_t>(c) * count_ + point]; }
 

@@ -22,7 +22,8 @@ LORE_INLINE F square(double const* point, double const* others, int coordinates,
 void squares(double const* point, double const* others, int coordinates, int stride, int count, double* squares) {
     constexpr int width = LORE_LANES / 2;
     int j = 0;
-    for (; j + width <= count; j += width) lanes::store(squares + j, square<Lanes<double, width>>(point, others + j, coordinates, stride));
+    for (; j + width <= count; j += width)
+        lanes::store(squares + j, square<Lanes<double, width>>(point, others + j, coordinates, stride));
     for (; j < count; ++j) squares[j] = square<double>(point, others + j, coordinates, stride);
 }
 

@@ -25,9 +25,9 @@ namespace {
 
 using Plane = std::array<std::uint64_t, words_per_plane>;
 
-/// The different planes among those of one channel and stretch of time. In a population there are few: a lamp that nobody
-/// sees, a ball that everybody carries, a child that has not yet left its parent's way. Measured on evolved populations,
-/// only 7 to 15 % of the pairs of planes are left to count.
+/// The different planes among those of one channel and stretch of time. In a population there are few: a lamp that
+/// nobody sees, a ball that everybody carries, a child that has not yet left its parent's way. Measured on evolved
+/// populations, only 7 to 15 % of the pairs of planes are left to count.
 class PlaneClasses {
 public:
     explicit PlaneClasses(std::size_t members) : class_of_(members), slots_(std::bit_ceil(2 * members)) {}
@@ -35,7 +35,8 @@ public:
     void classify(std::span<Plane const> planes) {
         std::fill(slots_.begin(), slots_.end(), 0);
         representatives_.clear();
-        for (std::size_t member = 0; member < planes.size(); ++member) class_of_[member] = class_of(planes, static_cast<int>(member));
+        for (std::size_t member = 0; member < planes.size(); ++member)
+            class_of_[member] = class_of(planes, static_cast<int>(member));
     }
 
     std::span<int const> class_of() const { return class_of_; }
@@ -77,7 +78,9 @@ public:
         for (std::size_t start = 0; start < longest; start += steps_per_plane) count_stretch(start);
     }
 
-    std::uint32_t operator()(int i, int j) const { return sums_[(static_cast<std::size_t>(i) - first_) * pool_.size() + static_cast<std::size_t>(j)]; }
+    std::uint32_t operator()(int i, int j) const {
+        return sums_[(static_cast<std::size_t>(i) - first_) * pool_.size() + static_cast<std::size_t>(j)];
+    }
 
 private:
     void count_stretch(std::size_t start) {
@@ -93,7 +96,8 @@ private:
             }
             kernel_.split(steps, planes[member].data(), static_cast<std::ptrdiff_t>(members * words_per_plane));
         }
-        for (int channel = 0; channel < bits_per_step; ++channel) count_channel({planes + static_cast<std::size_t>(channel) * members, members});
+        for (int channel = 0; channel < bits_per_step; ++channel)
+            count_channel({planes + static_cast<std::size_t>(channel) * members, members});
     }
 
     void count_channel(std::span<Plane const> planes) {
@@ -101,7 +105,8 @@ private:
         std::span<int const> const class_of = classes_.class_of(), representatives = classes_.representatives();
         if (representatives.size() == 1) return;
 
-        std::size_t const lanes = static_cast<std::size_t>(kernel_.lanes), groups = (representatives.size() + lanes - 1) / lanes;
+        std::size_t const lanes = static_cast<std::size_t>(kernel_.lanes),
+                          groups = (representatives.size() + lanes - 1) / lanes;
         others_.resize(groups * lanes * sizeof(Plane) / sizeof(CacheLine));
         auto* const others = reinterpret_cast<std::uint64_t*>(others_.data());   // [group][word][lane]
         for (std::size_t k = 0; k < representatives.size(); ++k)
@@ -116,7 +121,8 @@ private:
             if (rows_of_[k].empty()) continue;
             kernel_.differing(planes[representatives[k]].data(), others, static_cast<int>(groups), counts_.data());
             kernel_.spread(counts_.data(), class_of.data(), static_cast<int>(planes.size()), terms_.data());
-            for (std::size_t const i : rows_of_[k]) kernel_.add(terms_.data(), static_cast<int>(i), &sums_[(i - first_) * planes.size()]);
+            for (std::size_t const i : rows_of_[k])
+                kernel_.add(terms_.data(), static_cast<int>(i), &sums_[(i - first_) * planes.size()]);
         }
     }
 
@@ -153,8 +159,10 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
             std::size_t const length = longer.bits.size(), common = shorter.bits.size();
             std::size_t count = differences(i, j);
             // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
-            if (length != common) count = count - (ones(longer, length) - ones(longer, common)) + (length - common) * bits_per_step;
-            matrix.set(i, j, length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step));
+            if (length != common)
+                count = count - (ones(longer, length) - ones(longer, common)) + (length - common) * bits_per_step;
+            matrix.set(i, j,
+                       length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step));
         }
     }
 }

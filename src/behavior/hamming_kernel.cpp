@@ -1,9 +1,10 @@
-// Bits counted without an instruction for it, which neither baseline x86-64 nor AVX2 nor the AVX-512 of x86-64-v4 has for
-// vectors: carry-save adders (Harley and Seal; Mula, Kurz and Lemire 2018) turn sixteen words into counters of weight 1, 2,
-// 4, 8 and 16, and only these five are counted. Compiled once per instruction set; an AVX-512 processor that does have the
-// instruction (most do) counts twice as fast with it.
+// Bits counted without an instruction for it, which neither baseline x86-64 nor AVX2 nor the AVX-512 of x86-64-v4 has
+// for vectors: carry-save adders (Harley and Seal; Mula, Kurz and Lemire 2018) turn sixteen words into counters of
+// weight 1, 2, 4, 8 and 16, and only these five are counted. Compiled once per instruction set; an AVX-512 processor
+// that does have the instruction (most do) counts twice as fast with it.
 #include "hamming_kernel.h"
 
+#include <lore/core/channels.h>
 #include <lore/core/lanes.h>
 
 namespace lore::LORE_ISA_NAMESPACE {
@@ -61,8 +62,8 @@ LORE_INLINE Words count_sixteen(Words const (&w)[words_per_plane]) {
     Words const fours = low.sum ^ higher[3], carry = low.sum & higher[3];
     Words const eights = low.carry ^ carry, sixteens = low.carry & carry;
     // At most 8 (1 + 2 + 4 + 8 + 16) = 248 in a byte.
-    return byte_sums(byte_counts(ones) + (byte_counts(twos) << 1) + (byte_counts(fours) << 2) + (byte_counts(eights) << 3) +
-                     (byte_counts(sixteens) << 4));
+    return byte_sums(byte_counts(ones) + (byte_counts(twos) << 1) + (byte_counts(fours) << 2) +
+                     (byte_counts(eights) << 3) + (byte_counts(sixteens) << 4));
 }
 
 void differing(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts) {
@@ -77,7 +78,8 @@ void differing(std::uint64_t const* plane, std::uint64_t const* others, int grou
 
 #if defined(__AVX512F__) && LORE_LANES == 16
 [[gnu::target("avx512vpopcntdq")]]
-void differing_by_instruction(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts) {
+void differing_by_instruction(std::uint64_t const* plane, std::uint64_t const* others, int groups,
+                              std::uint32_t* counts) {
     for (int group = 0; group < groups; ++group) {
         Words sum{};
         for (int k = 0; k < words_per_plane; ++k)
@@ -105,7 +107,7 @@ void split(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stri
                 rows[k] ^= swapped << j;
             }
         }
-        for (int channel = 0; channel < bits_per_step; ++channel)
+        for (int channel = 0; channel < channel_count; ++channel)
             lanes::store(planes + channel * stride + piece * (steps / 4), rows[channel]);
     }
 }
@@ -114,14 +116,16 @@ void spread(std::uint32_t const* counts, std::int32_t const* class_of, int size,
     using Indices = Lanes<std::int32_t, LORE_LANES>;
     auto const* const table = reinterpret_cast<std::int32_t const*>(counts);
     int j = 0;
-    for (; j + LORE_LANES <= size; j += LORE_LANES) lanes::store(terms + j, lanes::gather(table, lanes::load<Indices>(class_of + j)));
+    for (; j + LORE_LANES <= size; j += LORE_LANES)
+        lanes::store(terms + j, lanes::gather(table, lanes::load<Indices>(class_of + j)));
     for (; j < size; ++j) terms[j] = counts[class_of[j]];
 }
 
 void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
     using Counts = Lanes<std::uint32_t, LORE_LANES>;
     int j = 0;
-    for (; j + LORE_LANES <= size; j += LORE_LANES) lanes::store(sums + j, lanes::load<Counts>(sums + j) + lanes::load<Counts>(terms + j));
+    for (; j + LORE_LANES <= size; j += LORE_LANES)
+        lanes::store(sums + j, lanes::load<Counts>(sums + j) + lanes::load<Counts>(terms + j));
     for (; j < size; ++j) sums[j] += terms[j];
 }
 
@@ -130,7 +134,8 @@ void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
 HammingKernel hamming(bool by_instruction);
 HammingKernel hamming(bool by_instruction) {
 #if defined(__AVX512F__) && LORE_LANES == 16
-    if (by_instruction && __builtin_cpu_supports("avx512vpopcntdq")) return {width, split, differing_by_instruction, spread, add_terms};
+    if (by_instruction && __builtin_cpu_supports("avx512vpopcntdq"))
+        return {width, split, differing_by_instruction, spread, add_terms};
 #endif
     static_cast<void>(by_instruction);
     return {width, split, differing, spread, add_terms};

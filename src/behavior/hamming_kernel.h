@@ -1,8 +1,8 @@
 #pragma once
 
-#include <lore/behavior/descriptors.h>
 #include <lore/core/isa.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lore {

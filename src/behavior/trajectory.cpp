@@ -7,19 +7,19 @@
 
 namespace lore {
 
-namespace isa_baseline { extern EditKernel const edit; }
+namespace isa_baseline { EditKernel edit(); }
 #if LORE_ISA_COUNT > 1
-namespace isa_v3 { extern EditKernel const edit; }
-namespace isa_v4 { extern EditKernel const edit; }
+namespace isa_v3 { EditKernel edit(); }
+namespace isa_v4 { EditKernel edit(); }
 #endif
 
 EditKernel edit_kernel(Isa isa) {
 #if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::edit;
-    if (isa == Isa::v3) return isa_v3::edit;
+    if (isa == Isa::v4) return isa_v4::edit();
+    if (isa == Isa::v3) return isa_v3::edit();
 #endif
     static_cast<void>(isa);
-    return isa_baseline::edit;
+    return isa_baseline::edit();
 }
 
 namespace {
@@ -39,7 +39,8 @@ struct DistinctPaths {
 DistinctPaths distinct_paths(std::span<Descriptors const* const> pool, int first) {
     auto const path = [&](int member) -> Path const& { return pool[member]->path; };
     auto const before = [](Path const& a, Path const& b) {
-        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](Tile s, Tile t) { return tile_index(s) < tile_index(t); });
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                            [](Tile s, Tile t) { return tile_index(s) < tile_index(t); });
     };
     std::vector<int> order(pool.size());
     std::iota(order.begin(), order.end(), 0);
@@ -52,8 +53,11 @@ DistinctPaths distinct_paths(std::span<Descriptors const* const> pool, int first
         if (sharing.empty() || path(sharing.back()[0]) != path(member)) sharing.emplace_back();
         sharing.back().push_back(member);
     }
-    auto const is_row = [&](std::vector<int> const& members) { return std::any_of(members.begin(), members.end(), [&](int m) { return m >= first; }); };
-    auto const rows = std::stable_partition(sharing.begin(), sharing.end(), [&](auto const& members) { return !is_row(members); });
+    auto const is_row = [&](std::vector<int> const& members) {
+        return std::any_of(members.begin(), members.end(), [&](int m) { return m >= first; });
+    };
+    auto const rows =
+        std::stable_partition(sharing.begin(), sharing.end(), [&](auto const& members) { return !is_row(members); });
     distinct.first_row = static_cast<int>(rows - sharing.begin());
     for (std::vector<int> const& members : sharing) {
         for (int const member : members) distinct.place[member] = static_cast<int>(distinct.paths.size());
@@ -66,9 +70,9 @@ DistinctPaths distinct_paths(std::span<Descriptors const* const> pool, int first
 class GroupMeasure {
 public:
     explicit GroupMeasure(std::size_t longest)
-        : kernel_(edit_kernel(active_isa())), line_(longest + 1), tiles_(lines(longest)), substitution_(lines(tile_count * line_)),
-          across_(lines(line_)), diagonal_(lines(line_)), follows_(new bool[tile_count * tile_count]), costs_(kernel_.lanes),
-          lengths_(kernel_.lanes) {}
+        : kernel_(edit_kernel(active_isa())), tiles_(longest), substitution_(tile_count * (longest + 1)),
+          across_(longest + 1), diagonal_(longest + 1), follows_(new bool[tile_count * tile_count]),
+          costs_(kernel_.lanes), lengths_(kernel_.lanes) {}
 
     int lanes() const { return kernel_.lanes; }
 
@@ -77,7 +81,8 @@ public:
         members_ = static_cast<int>(members.size());
         std::size_t longest = 0;
         for (Path const* path : members) longest = std::max(longest, path->size());
-        same_length_ = std::all_of(members.begin(), members.end(), [&](Path const* path) { return path->size() == longest; });
+        same_length_ =
+            std::all_of(members.begin(), members.end(), [&](Path const* path) { return path->size() == longest; });
         auto* const tiles = reinterpret_cast<std::uint8_t*>(tiles_.data());
         for (int lane = 0; lane < lanes(); ++lane) {
             Path const& path = *members[std::min(lane, members_ - 1)];
@@ -85,7 +90,8 @@ public:
             for (std::size_t j = 0; j < longest; ++j)
                 tiles[j * lanes() + lane] = static_cast<std::uint8_t>(j < path.size() ? tile_index(path[j]) : 0);
         }
-        group_ = {tiles, static_cast<int>(longest), reinterpret_cast<std::int8_t*>(substitution_.data()), follows_.get()};
+        group_ = {tiles, static_cast<int>(longest), reinterpret_cast<std::int8_t*>(substitution_.data()),
+                  follows_.get()};
         kernel_.prepare(group_);
     }
 
@@ -93,27 +99,26 @@ public:
     std::span<std::int32_t const> costs_of(Path const& path, int count) {
         row_.clear();
         for (Tile const tile : path) row_.push_back(static_cast<std::uint8_t>(tile_index(tile)));
-        EditRows const rows{reinterpret_cast<std::int8_t*>(across_.data()), reinterpret_cast<std::int8_t*>(diagonal_.data())};
+        EditRows const rows{reinterpret_cast<std::int8_t*>(across_.data()),
+                            reinterpret_cast<std::int8_t*>(diagonal_.data())};
         auto const wanted = std::span{costs_}.first(static_cast<std::size_t>(count));
         if (same_length_ && static_cast<int>(row_.size()) == group_.columns) {
             // A script that strays to offset k inserts k tiles and deletes k, at 24 k twelfths; one that is no dearer
             // than step-by-step substitution therefore stays within that price / 24.
             kernel_.diagonal_costs(group_, row_.data(), costs_.data());
-            int const band = std::min(*std::max_element(wanted.begin(), wanted.end()) / (2 * tiles_per_side), group_.columns);
+            int const band =
+                std::min(*std::max_element(wanted.begin(), wanted.end()) / (2 * tiles_per_side), group_.columns);
             kernel_.banded_costs(group_, row_.data(), band, rows, costs_.data());
         } else {
-            kernel_.full_costs(group_, row_.data(), static_cast<int>(row_.size()), lengths_.data(), rows, costs_.data());
+            kernel_.full_costs(group_, row_.data(), static_cast<int>(row_.size()), lengths_.data(), rows,
+                               costs_.data());
         }
         return wanted;
     }
 
 private:
-    static constexpr std::size_t widest = sizeof(CacheLine);   // lanes of a group, at most
-    static std::vector<CacheLine> lines(std::size_t count) { return std::vector<CacheLine>(count * widest / sizeof(CacheLine)); }
-
     EditKernel kernel_;
-    std::size_t line_;
-    std::vector<CacheLine> tiles_, substitution_, across_, diagonal_;
+    std::vector<CacheLine> tiles_, substitution_, across_, diagonal_;   ///< a line holds the lanes of a column
     std::unique_ptr<bool[]> follows_;
     std::vector<std::int32_t> costs_;
     std::vector<int> lengths_;
@@ -134,11 +139,14 @@ void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first
 
     // twelfths[row][place], place < row, by place of the path
     std::vector<std::int32_t> twelfths(static_cast<std::size_t>(count - distinct.first_row) * count);
-    auto const row_of = [&](int place) { return twelfths.data() + static_cast<std::ptrdiff_t>(place - distinct.first_row) * count; };
+    auto const row_of = [&](int place) {
+        return twelfths.data() + static_cast<std::ptrdiff_t>(place - distinct.first_row) * count;
+    };
     GroupMeasure measure(longest);
     for (int start = 0; start < count; start += measure.lanes()) {
         int const members = std::min(measure.lanes(), count - start);
-        measure.set_group(std::span{distinct.paths}.subspan(static_cast<std::size_t>(start), static_cast<std::size_t>(members)));
+        measure.set_group(
+            std::span{distinct.paths}.subspan(static_cast<std::size_t>(start), static_cast<std::size_t>(members)));
         for (int row = std::max(distinct.first_row, start + 1); row < count; ++row) {
             auto const costs = measure.costs_of(*distinct.paths[row], std::min(members, row - start));
             std::copy(costs.begin(), costs.end(), row_of(row) + start);
@@ -146,7 +154,8 @@ void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first
     }
     for (int i = first; i < last; ++i) {
         for (int j = 0; j < i; ++j) {
-            auto const [low, high] = std::pair{std::min(distinct.place[i], distinct.place[j]), std::max(distinct.place[i], distinct.place[j])};
+            auto const [low, high] = std::pair{std::min(distinct.place[i], distinct.place[j]),
+                                               std::max(distinct.place[i], distinct.place[j])};
             matrix.set(i, j, low == high ? 0.0 : row_of(high)[low] / static_cast<double>(tiles_per_side));
         }
     }

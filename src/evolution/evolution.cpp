@@ -60,7 +60,8 @@ std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator) {
 }
 
 Population join(Population parents, std::vector<Individual> children) {
-    parents.members.insert(parents.members.end(), std::make_move_iterator(children.begin()), std::make_move_iterator(children.end()));
+    parents.members.insert(parents.members.end(), std::make_move_iterator(children.begin()),
+                           std::make_move_iterator(children.end()));
     return parents;
 }
 
@@ -131,7 +132,8 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
         Stopwatch watch;
         GenerationTimes times;
 
-        Newborns const born = generation == 0 ? founders(config, seed) : breed(state.population, config, seed, generation);
+        Newborns const born =
+            generation == 0 ? founders(config, seed) : breed(state.population, config, seed, generation);
         times.selection += watch.lap();
 
         std::vector<Individual> children = evaluate(born, evaluator);
@@ -157,10 +159,11 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
 
 Individual const& best_of_run(Population const& population) {
     assert(!population.members.empty());
-    return *std::min_element(population.members.begin(), population.members.end(), [](Individual const& a, Individual const& b) {
-        if (a.birth->balls != b.birth->balls) return a.birth->balls > b.birth->balls;
-        return a.id() < b.id();
-    });
+    return *std::min_element(population.members.begin(), population.members.end(),
+                             [](Individual const& a, Individual const& b) {
+                                 if (a.birth->balls != b.birth->balls) return a.birth->balls > b.birth->balls;
+                                 return a.id() < b.id();
+                             });
 }
 
 } // namespace lore

@@ -24,7 +24,8 @@ std::vector<std::vector<int>> non_dominated_fronts_plainly(std::span<Objectives 
     while (!left.empty()) {
         std::vector<int> front, dominated;
         for (int const i : left) {
-            bool const is_dominated = std::any_of(left.begin(), left.end(), [&](int j) { return dominates(points[j], points[i]); });
+            bool const is_dominated =
+                std::any_of(left.begin(), left.end(), [&](int j) { return dominates(points[j], points[i]); });
             (is_dominated ? dominated : front).push_back(i);
         }
         fronts.push_back(std::move(front));
@@ -50,9 +51,11 @@ std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> p
         // Ties are massive: equals follow each other and share a front.
         if (place == 0 || !(points[order[place - 1]] == points[i])) {
             auto const dominated_in = [&](std::vector<int> const& members) {
-                return std::any_of(members.rbegin(), members.rend(), [&](int j) { return dominates(points[j], points[i]); });
+                return std::any_of(members.rbegin(), members.rend(),
+                                   [&](int j) { return dominates(points[j], points[i]); });
             };
-            front = static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(), dominated_in) - fronts.begin());
+            front = static_cast<std::size_t>(std::partition_point(fronts.begin(), fronts.end(), dominated_in) -
+                                             fronts.begin());
             if (front == fronts.size()) fronts.emplace_back();
         }
         fronts[front].push_back(i);

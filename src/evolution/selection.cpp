@@ -55,7 +55,8 @@ std::uint64_t tie_key(TieRule rule, std::uint64_t seed, int generation, Individu
     return Stream{seed, Purpose::tie, static_cast<std::uint32_t>(generation), who}.bits64();
 }
 
-std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed, int generation) {
+std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed,
+                                    int generation) {
     assert(!members.empty());
     Stream rng{seed, Purpose::tournament, static_cast<std::uint32_t>(generation)};
     std::vector<int> const draw = tournament_draw(static_cast<int>(members.size()), 2 * count, rng);
@@ -91,7 +92,8 @@ Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> ti
             return a < b;
         });
         std::size_t const taken = std::min(room, front.size());
-        ranking.survivors.insert(ranking.survivors.end(), front.begin(), front.begin() + static_cast<std::ptrdiff_t>(taken));
+        ranking.survivors.insert(ranking.survivors.end(), front.begin(),
+                                 front.begin() + static_cast<std::ptrdiff_t>(taken));
     }
     return ranking;
 }

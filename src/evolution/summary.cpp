@@ -29,13 +29,15 @@ GenerationSummary summarise(GenerationReport const& report) {
         ++sharing[member.objectives.value];
     }
     double const count = static_cast<double>(members.size());
-    for (double* mean : {&summary.mean_balls, &summary.mean_diversity, &summary.mean_connections, &summary.mean_hidden}) *mean /= count;
+    for (double* mean : {&summary.mean_balls, &summary.mean_diversity, &summary.mean_connections, &summary.mean_hidden})
+        *mean /= count;
     summary.shaping_at_max = at_max / count;
     for (auto const& [objectives, sharers] : sharing)
         if (sharers > 1) summary.tied += sharers;
 
     summary.evaluations = static_cast<std::int64_t>(report.born.size());
-    for (Individual const& child : report.born) summary.steps += static_cast<std::int64_t>(child.descriptors->bits.size());
+    for (Individual const& child : report.born)
+        summary.steps += static_cast<std::int64_t>(child.descriptors->bits.size());
     return summary;
 }
 

@@ -39,7 +39,8 @@ void expect_fast_equals_plain(std::vector<Descriptors> const& pool, std::vector<
     }
 }
 
-std::vector<DistanceKind> const all_kinds{DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory, DistanceKind::entropy};
+std::vector<DistanceKind> const all_kinds{DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory,
+                                          DistanceKind::entropy};
 
 } // namespace
 
@@ -105,8 +106,10 @@ TEST(MeasureRows, equals_the_definition_where_behaviours_are_alike) {
         if (rng.coin()) {
             Descriptors const other = random_behaviour(rng, 4000);
             std::size_t const turn = rng.below(80);
-            std::copy(other.path.begin() + static_cast<std::ptrdiff_t>(turn), other.path.end(), child.path.begin() + static_cast<std::ptrdiff_t>(turn));
-            std::copy(other.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50), other.bits.end(), child.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50));
+            std::copy(other.path.begin() + static_cast<std::ptrdiff_t>(turn), other.path.end(),
+                      child.path.begin() + static_cast<std::ptrdiff_t>(turn));
+            std::copy(other.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50), other.bits.end(),
+                      child.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50));
         }
         pool.push_back(std::move(child));
     }
@@ -133,7 +136,9 @@ TEST(MeasureRows, equals_the_definition_for_paths_full_of_transpositions) {
     std::vector<Descriptors> pool;
     for (int i = 0; i < 100; ++i) {
         Descriptors d;
-        for (int k = 0; k < 40; ++k) d.path.push_back({static_cast<std::uint8_t>(rng.below(3) * 5), static_cast<std::uint8_t>(rng.below(2) * 11)});
+        for (int k = 0; k < 40; ++k)
+            d.path.push_back(
+                {static_cast<std::uint8_t>(rng.below(3) * 5), static_cast<std::uint8_t>(rng.below(2) * 11)});
         pool.push_back(std::move(d));
     }
     expect_fast_equals_plain(pool, {DistanceKind::trajectory});

@@ -27,7 +27,8 @@ Descriptors bits(std::vector<std::uint16_t> words) {
 } // namespace
 
 TEST(DistanceKind, is_read_by_its_name) {
-    for (int k = 0; k < distance_kinds; ++k) EXPECT_EQ(distance_kind(name(static_cast<DistanceKind>(k))), static_cast<DistanceKind>(k));
+    for (int k = 0; k < distance_kinds; ++k)
+        EXPECT_EQ(distance_kind(name(static_cast<DistanceKind>(k))), static_cast<DistanceKind>(k));
     EXPECT_THROW(distance_kind("haming"), UsageError);
 }
 
@@ -65,7 +66,8 @@ TEST(TrajectoryDistance, inserts_and_deletes_at_one_and_substitutes_by_distance)
     EXPECT_EQ(trajectory_distance(path({a}), path({near})), 1 / 12.0);
     EXPECT_EQ(trajectory_distance(path({a}), path({far})), 18 / 12.0);            // cheaper than to delete and insert
     EXPECT_EQ(trajectory_distance(path({a, far}), path({far})), 1.0);
-    EXPECT_EQ(trajectory_distance(path({a, a, a, far}), path({far, a, a, a})), 2.0);   // shifted, not substituted twice (3.0)
+    EXPECT_EQ(trajectory_distance(path({a, a, a, far}), path({far, a, a, a})),
+              2.0); // shifted, not substituted twice (3.0)
     EXPECT_EQ(trajectory_distance(path({}), path({a, a})), 2.0);
     EXPECT_EQ(trajectory_distance(path({}), path({})), 0.0);
 }
@@ -77,8 +79,10 @@ int cheapest(std::vector<Tile> const& a, std::size_t i, std::vector<Tile> const&
     if (i == 0) return static_cast<int>(j) * 12;
     if (j == 0) return static_cast<int>(i) * 12;
     int const substitution = std::abs(a[i - 1].x - b[j - 1].x) + std::abs(a[i - 1].y - b[j - 1].y);
-    int least = std::min({cheapest(a, i - 1, b, j) + 12, cheapest(a, i, b, j - 1) + 12, cheapest(a, i - 1, b, j - 1) + substitution});
-    if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) least = std::min(least, cheapest(a, i - 2, b, j - 2) + substitution);
+    int least = std::min(
+        {cheapest(a, i - 1, b, j) + 12, cheapest(a, i, b, j - 1) + 12, cheapest(a, i - 1, b, j - 1) + substitution});
+    if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        least = std::min(least, cheapest(a, i - 2, b, j - 2) + substitution);
     return least;
 }
 
@@ -89,7 +93,8 @@ TEST(TrajectoryDistance, is_the_cheapest_of_all_edit_scripts) {
     for (int trial = 0; trial < 300; ++trial) {
         std::vector<Tile> a(rng.below(6)), b(rng.below(6));
         for (auto* tiles : {&a, &b})
-            for (Tile& tile : *tiles) tile = {static_cast<std::uint8_t>(rng.below(2) * 7), static_cast<std::uint8_t>(rng.below(2) * 2)};
+            for (Tile& tile : *tiles)
+                tile = {static_cast<std::uint8_t>(rng.below(2) * 7), static_cast<std::uint8_t>(rng.below(2) * 2)};
         EXPECT_EQ(trajectory_distance(path(a), path(b)), cheapest(a, a.size(), b, b.size()) / 12.0);
     }
 }

@@ -20,8 +20,16 @@ inline Descriptors random_behaviour(Stream& rng, int steps, int balls = 8) {
     Tile tile{static_cast<std::uint8_t>(rng.below(12)), static_cast<std::uint8_t>(rng.below(8))};
     for (int step = 0; step < steps; step += steps_per_tile_sample) {
         if (rng.chance(0.5)) {
-            if (rng.coin()) tile.x = static_cast<std::uint8_t>(tile.x == 0 ? 1 : tile.x == 11 ? 10 : rng.coin() ? tile.x - 1 : tile.x + 1);
-            else tile.y = static_cast<std::uint8_t>(tile.y == 0 ? 1 : tile.y == 7 ? 6 : rng.coin() ? tile.y - 1 : tile.y + 1);
+            if (rng.coin())
+                tile.x = static_cast<std::uint8_t>(tile.x == 0    ? 1
+                                                   : tile.x == 11 ? 10
+                                                   : rng.coin()   ? tile.x - 1
+                                                                  : tile.x + 1);
+            else
+                tile.y = static_cast<std::uint8_t>(tile.y == 0   ? 1
+                                                   : tile.y == 7 ? 6
+                                                   : rng.coin()  ? tile.y - 1
+                                                                 : tile.y + 1);
         }
         d.path.push_back(tile);
     }

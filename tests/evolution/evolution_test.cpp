@@ -21,7 +21,8 @@ EvolutionConfig small_config() {
     return config;
 }
 
-std::string signature_of(EvolutionConfig const& config, std::uint64_t seed, SyntheticEvaluator::Order order = SyntheticEvaluator::Order::forward) {
+std::string signature_of(EvolutionConfig const& config, std::uint64_t seed,
+                         SyntheticEvaluator::Order order = SyntheticEvaluator::Order::forward) {
     SyntheticEvaluator evaluator{order};
     return evolve(config, seed, evaluator, {}, {}).signature.text();
 }
@@ -57,7 +58,8 @@ TEST(Evolve, goes_on_from_any_generation_as_if_it_had_never_stopped) {
     std::string const expected = signature_of(config, 4);
     for (int const stop : {0, 1, 6, 7, 30, 59}) {   // before and after a change of distance, too
         SyntheticEvaluator evaluator;
-        EvolutionState half = evolve(config, 4, evaluator, {}, [&](GenerationReport const& report) { return report.generation < stop; });
+        EvolutionState half =
+            evolve(config, 4, evaluator, {}, [&](GenerationReport const& report) { return report.generation < stop; });
         EXPECT_EQ(half.population.generation, stop);
         EvolutionState without_distances = half;
         without_distances.population.distances = {};
@@ -69,7 +71,10 @@ TEST(Evolve, goes_on_from_any_generation_as_if_it_had_never_stopped) {
 TEST(Evolve, of_a_finished_state_changes_nothing) {
     SyntheticEvaluator evaluator;
     EvolutionState const finished = evolve(small_config(), 5, evaluator, {}, {});
-    EvolutionState const again = evolve(small_config(), 5, evaluator, finished, [](auto const&) { ADD_FAILURE(); return true; });
+    EvolutionState const again = evolve(small_config(), 5, evaluator, finished, [](auto const&) {
+        ADD_FAILURE();
+        return true;
+    });
     EXPECT_EQ(again.signature.value(), finished.signature.value());
     EXPECT_EQ(again.population.generation, 60);
 }
@@ -122,7 +127,8 @@ TEST(Evolve, measures_only_pairs_with_a_child_unless_the_distance_has_changed) {
         Population const& population = report.state->population;
         for (int i = 0; i < population.distances.size(); ++i)
             for (int j = 0; j < i; ++j)
-                EXPECT_EQ(population.distances(i, j), distance(report.distance, *population.members[i].descriptors, *population.members[j].descriptors));
+                EXPECT_EQ(population.distances(i, j), distance(report.distance, *population.members[i].descriptors,
+                                                               *population.members[j].descriptors));
         return true;
     });
     ASSERT_EQ(evaluator.measured_from().size(), kinds.size());
@@ -144,10 +150,13 @@ TEST(Evolve, judges_diversity_in_the_joint_pool_of_its_generation) {
         pool.insert(pool.end(), report.born.begin(), report.born.end());
         for (Individual const& child : report.born) {
             double sum = 0;
-            for (Individual const& other : pool) sum += distance(report.distance, *child.descriptors, *other.descriptors);
+            for (Individual const& other : pool)
+                sum += distance(report.distance, *child.descriptors, *other.descriptors);
             EXPECT_EQ(child.diversity, sum / static_cast<double>(pool.size()));
             EXPECT_EQ(child.birth->diversity, child.diversity);
-            EXPECT_EQ(child.objectives, (Objectives{{static_cast<double>(child.birth->balls), child.diversity, child.birth->shaping}, 3}));
+            EXPECT_EQ(
+                child.objectives,
+                (Objectives{{static_cast<double>(child.birth->balls), child.diversity, child.birth->shaping}, 3}));
         }
         parents = report.state->population.members;
         return true;
@@ -196,7 +205,8 @@ TEST(Evolve, remembers_no_more_than_the_living_tree) {
         for (Individual const& child : report.born) everybody.push_back(child.birth);
         return true;
     });
-    auto const alive = std::count_if(everybody.begin(), everybody.end(), [](auto const& birth) { return !birth.expired(); });
+    auto const alive =
+        std::count_if(everybody.begin(), everybody.end(), [](auto const& birth) { return !birth.expired(); });
     EXPECT_EQ(static_cast<std::size_t>(alive), ancestors_of(state.population.members).size());
     EXPECT_LT(alive, 700);   // of 6040
 }

@@ -38,7 +38,8 @@ TEST(AncestorsOf, names_each_once_in_order_of_birth) {
     auto const parent = child_of(founder, {2, 1});
     auto const left = child_of(parent, {5, 9});
     auto const right = child_of(parent, {5, 0});
-    std::vector<Individual> const members{individual(left), individual(other_founder), individual(right), individual(parent)};
+    std::vector<Individual> const members{individual(left), individual(other_founder), individual(right),
+                                          individual(parent)};
     EXPECT_EQ(ancestors_of(members),
               (std::vector<Birth const*>{other_founder.get(), founder.get(), parent.get(), right.get(), left.get()}));
     EXPECT_TRUE(ancestors_of({}).empty());
@@ -83,8 +84,10 @@ TEST(Birth, of_extinct_branches_takes_no_memory_however_long_the_run) {
         if (g % 500 != 499) continue;
         std::vector<Individual> members;
         for (auto const& birth : living) members.push_back(individual(birth));
-        auto const alive = std::count_if(everybody.begin(), everybody.end(), [](auto const& birth) { return !birth.expired(); });
+        auto const alive =
+            std::count_if(everybody.begin(), everybody.end(), [](auto const& birth) { return !birth.expired(); });
         EXPECT_EQ(static_cast<std::size_t>(alive), ancestors_of(members).size());
-        EXPECT_LT(alive, static_cast<std::ptrdiff_t>(g + 1) + 400);   // one common chain, and the young branches at its end
+        EXPECT_LT(alive,
+                  static_cast<std::ptrdiff_t>(g + 1) + 400); // one common chain, and the young branches at its end
     }
 }

@@ -115,6 +115,7 @@ TEST(CrowdingDistance, gives_the_ends_among_equals_by_tie_key) {
 TEST(CrowdingDistance, reads_only_the_members_of_the_front) {
     std::vector<Objectives> const points{two(9, 9), two(0, 2), two(1, 1), two(2, 0)};
     std::vector<std::uint64_t> const keys{0, 1, 2, 3};
-    EXPECT_EQ(crowding_distances(points, std::vector<int>{3, 2, 1}, keys), (std::vector<double>{infinity, 2.0, infinity}));
+    EXPECT_EQ(crowding_distances(points, std::vector<int>{3, 2, 1}, keys),
+              (std::vector<double>{infinity, 2.0, infinity}));
     EXPECT_TRUE(crowding_distances(points, {}, keys).empty());
 }

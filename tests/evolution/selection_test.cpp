@@ -37,7 +37,8 @@ std::vector<std::uint64_t> rising_keys(std::size_t count) {
 } // namespace
 
 TEST(TieRule, is_read_by_its_name) {
-    for (TieRule const rule : {TieRule::random, TieRule::older, TieRule::younger}) EXPECT_EQ(tie_rule(name(rule)), rule);
+    for (TieRule const rule : {TieRule::random, TieRule::older, TieRule::younger})
+        EXPECT_EQ(tie_rule(name(rule)), rule);
     EXPECT_THROW(tie_rule("oldest"), UsageError);
 }
 
@@ -54,14 +55,16 @@ TEST(TieKey, differs_between_individuals_generations_and_seeds) {
     for (std::uint64_t seed : {1u, 2u})
         for (int generation : {5, 6})
             for (std::uint32_t birth = 0; birth < 50; ++birth)
-                for (std::uint32_t slot = 0; slot < 50; ++slot) keys.insert(tie_key(TieRule::random, seed, generation, {birth, slot}));
+                for (std::uint32_t slot = 0; slot < 50; ++slot)
+                    keys.insert(tie_key(TieRule::random, seed, generation, {birth, slot}));
     EXPECT_EQ(keys.size(), 2u * 2 * 50 * 50);
 }
 
 TEST(TieKey, favours_neither_old_nor_young) {
     int older_first = 0;
     for (int generation = 1; generation <= 4000; ++generation)
-        older_first += tie_key(TieRule::random, 7, generation, {0, 3}) < tie_key(TieRule::random, 7, generation, {static_cast<std::uint32_t>(generation), 3});
+        older_first += tie_key(TieRule::random, 7, generation, {0, 3}) <
+                       tie_key(TieRule::random, 7, generation, {static_cast<std::uint32_t>(generation), 3});
     EXPECT_NEAR(older_first, 2000, 160);   // five standard deviations
 }
 

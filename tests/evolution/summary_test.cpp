@@ -26,7 +26,8 @@ Individual member(int balls, double diversity, double shaping, int edges, int hi
 
 TEST(Summarise, gives_the_figures_of_a_hand_worked_generation) {
     EvolutionState state;
-    state.population.members = {member(2, 0.5, 3.0, 36, 0), member(2, 0.5, 3.0, 40, 2), member(0, 0.25, 3.0, 38, 0), member(4, 0.75, 1.5, 30, 1)};
+    state.population.members = {member(2, 0.5, 3.0, 36, 0), member(2, 0.5, 3.0, 40, 2), member(0, 0.25, 3.0, 38, 0),
+                                member(4, 0.75, 1.5, 30, 1)};
     std::vector<Individual> const born{member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0)};
     GenerationReport report;
     report.generation = 17;

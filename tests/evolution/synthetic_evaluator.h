@@ -11,8 +11,8 @@
 
 namespace lore {
 
-/// Judges a genome by its genes alone, in no time: balls for some high biases, behaviour from the weights. Works through
-/// the batch in whatever order it is told to, as ranks would.
+/// Judges a genome by its genes alone, in no time: balls for some high biases, behaviour from the weights. Works
+/// through the batch in whatever order it is told to, as ranks would.
 class SyntheticEvaluator : public Evaluator {
 public:
     enum class Order { forward, backward, shuffled };
@@ -29,7 +29,8 @@ public:
         return evaluations;
     }
 
-    void measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix) override {
+    void measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known,
+                 DistanceMatrix& matrix) override {
         int const size = static_cast<int>(pool.size());
         measured_from_.push_back(known);
         int const middle = known + (size - known) / 3;
@@ -50,8 +51,10 @@ private:
         e.shaping = std::floor(first * 8) / 8;
         e.descriptors.balls = {{first, last}};
         for (Edge const& edge : genome.edges) {
-            e.descriptors.bits.push_back(static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(edge.weight) >> 8 & 0x7fff));
-            e.descriptors.path.push_back({static_cast<std::uint8_t>(edge.weight * 11), static_cast<std::uint8_t>(edge.source % 8)});
+            e.descriptors.bits.push_back(
+                static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(edge.weight) >> 8 & 0x7fff));
+            e.descriptors.path.push_back(
+                {static_cast<std::uint8_t>(edge.weight * 11), static_cast<std::uint8_t>(edge.source % 8)});
         }
         e.descriptors.entropies[0] = first;
         e.descriptors.entropies[14] = last;

@@ -1,4 +1,5 @@
-// Behavioural distances: what one generation has to measure, that is, all pairs of 400 with at least one of 200 children.
+// Behavioural distances: what one generation has to measure, that is, all pairs of 400 with at least one of 200
+// children.
 #include "evolved_state.h"
 
 #include <lore/behavior/distance_matrix.h>
@@ -23,7 +24,8 @@ void distances_of_a_generation(benchmark::State& state, DistanceKind kind, Isa i
         benchmark::DoNotOptimize(matrix.means());
     }
     use_isa(before);
-    state.counters["pairs"] = benchmark::Counter(known * (known + size - 1) / 2.0, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["pairs"] =
+        benchmark::Counter(known * (known + size - 1) / 2.0, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void one_distance_by_definition(benchmark::State& state, DistanceKind kind) {
@@ -41,8 +43,9 @@ bool const registered = [] {
         std::string const kind_name{name(kind)};
         benchmark::RegisterBenchmark(("distance/definition/" + kind_name).c_str(), one_distance_by_definition, kind);
         for (int isa = 0; isa <= static_cast<int>(detected_isa()); ++isa)
-            benchmark::RegisterBenchmark(("distance/generation/" + kind_name + "/" + std::string{name(static_cast<Isa>(isa))}).c_str(),
-                                         distances_of_a_generation, kind, static_cast<Isa>(isa))
+            benchmark::RegisterBenchmark(
+                ("distance/generation/" + kind_name + "/" + std::string{name(static_cast<Isa>(isa))}).c_str(),
+                distances_of_a_generation, kind, static_cast<Isa>(isa))
                 ->Unit(benchmark::kMillisecond);
     }
     return true;

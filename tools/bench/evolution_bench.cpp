@@ -1,4 +1,5 @@
-// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of the source task.
+// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of the source
+// task.
 #include "evolved_state.h"
 
 #include <lore/evolution/pareto.h>
@@ -64,7 +65,8 @@ void generation_of_the_source_task(benchmark::State& state, DistanceKind kind) {
 bool const registered = [] {
     for (int k = 0; k < distance_kinds; ++k) {
         auto const kind = static_cast<DistanceKind>(k);
-        benchmark::RegisterBenchmark(("evolution/generation/source/" + std::string{name(kind)}).c_str(), generation_of_the_source_task, kind)
+        benchmark::RegisterBenchmark(("evolution/generation/source/" + std::string{name(kind)}).c_str(),
+                                     generation_of_the_source_task, kind)
             ->Unit(benchmark::kMillisecond);
     }
     return true;

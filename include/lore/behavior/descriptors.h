@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/arena/arena.h>
+#include <lore/behavior/tile.h>
 #include <lore/core/channels.h>
 #include <lore/episode/episode.h>
 
@@ -10,12 +11,9 @@
 
 namespace lore {
 
-inline constexpr int tiles_per_side = 12;          ///< the arena's longer side is cut in 12; tiles are square
 inline constexpr int steps_per_tile_sample = 50;   ///< the trajectory descriptor looks at every 50th step [steps]
 inline constexpr int entropy_bins = 10;            ///< histogram bins of a continuous channel
 inline constexpr int bits_per_step = channel_count;   ///< one bit a channel in the hamming descriptor
-
-struct Tile { std::uint8_t x = 0, y = 0; friend bool operator==(Tile const&, Tile const&) = default; };
 
 /// What the four behavioural distances compare (paper, "Dynamic behavioral diversity"); taken from the logged steps:
 /// pose and sensors before the move, effectors of the same step.

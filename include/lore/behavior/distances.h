@@ -12,10 +12,11 @@ inline constexpr int distance_kinds = 4;
 std::string_view name(DistanceKind);
 DistanceKind distance_kind(std::string_view name);   ///< throws UsageError
 
-/// Behavioural distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These are
-/// the definitions; measure_rows (distance_matrix.h) is the fast twin.
+/// Behavioural distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These
+/// are the definitions; measure_rows (distance_matrix.h) is the fast twin.
 
-/// Euclidean, over the coordinates of all balls; squares are summed ball by ball, x first. Precondition: equally many balls.
+/// Euclidean, over the coordinates of all balls; squares are summed ball by ball, x first. Precondition: equally many
+/// balls.
 double adhoc_distance(Descriptors const&, Descriptors const&);
 /// Fraction of the bits (bits_per_step a step) that differ; a step that only one of the two lived differs in all.
 double hamming_distance(Descriptors const&, Descriptors const&);

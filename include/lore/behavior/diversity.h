@@ -10,7 +10,8 @@ namespace lore {
 /// Dynamic behavioural diversity (paper, same section): the distance changes every `period` generations.
 struct DiversityConfig {
     int period = 50;   ///< p_g [generations]
-    std::vector<DistanceKind> distances{DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory, DistanceKind::entropy};
+    std::vector<DistanceKind> distances{DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory,
+                                        DistanceKind::entropy};
 };
 
 /// The distance that serves a generation: draw number floor(generation / period), uniform, repeats allowed.

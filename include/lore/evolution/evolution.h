@@ -45,7 +45,8 @@ using GenerationObserver = std::function<bool(GenerationReport const&)>;
 
 /// The paper's method (NSGA-II with dynamic behavioural diversity) from `state`, or from the founders where it is
 /// empty, to config.generations or until the observer says stop. A pure function of config, seed and evaluator.
-EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state, GenerationObserver const&);
+EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state,
+                      GenerationObserver const&);
 
 /// Most balls in the population; ties: the earliest born, then the lowest slot.
 Individual const& best_of_run(Population const&);

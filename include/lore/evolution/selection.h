@@ -19,8 +19,8 @@ std::uint64_t tie_key(TieRule, std::uint64_t seed, int generation, IndividualId)
 ///
 /// Shuffles of the population are laid end to end and cut into pairs, so that every member takes part in exactly two
 /// tournaments when count equals the population. In an odd population one pair straddles two shuffles; should it be the
-/// same member twice, it meets the next one instead. The winner dominates, else has the larger crowding distance, else a
-/// coin; objectives and crowding are those of the last joint ranking.
+/// same member twice, it meets the next one instead. The winner dominates, else has the larger crowding distance, else
+/// a coin; objectives and crowding are those of the last joint ranking.
 std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed, int generation);
 
 /// What a joint ranking found.
