@@ -52,7 +52,8 @@ WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper
     for (Shaper const& shaper : shapers)
         for (std::size_t i = 0; i < windows.size(); ++i) {
             Match const match = shaper.match(windows[i]);
-            found.values[i] *= match.found() ? shaper.base().value(match.feature) : std::numeric_limits<double>::quiet_NaN();
+            found.values[i] *=
+                match.found() ? shaper.base().value(match.feature) : std::numeric_limits<double>::quiet_NaN();
         }
     if (shapers.size() == 1) {
         auto const values = shapers.front().base().values();
@@ -74,12 +75,14 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Knowle
     std::vector<Shaper> shapers;
     for (std::string const& path : paths) {
         KnowledgeBase base = read_knowledge_base(path);
-        if (base.size() == 0) throw UsageError(fmt::format("cannot use {}", path), "the knowledge base is empty", "Give another one.");
+        if (base.size() == 0)
+            throw UsageError(fmt::format("cannot use {}", path), "the knowledge base is empty", "Give another one.");
         if (shapers.empty()) config = base.config();
         if (base.config().window_length != config.window_length)
-            throw UsageError(fmt::format("cannot combine {} with {}", path, paths.front()),
-                             fmt::format("windows of {} and of {} steps", base.config().window_length, config.window_length),
-                             "Give knowledge bases of one window length.");
+            throw UsageError(
+                fmt::format("cannot combine {} with {}", path, paths.front()),
+                fmt::format("windows of {} and of {} steps", base.config().window_length, config.window_length),
+                "Give knowledge bases of one window length.");
         shapers.emplace_back(std::move(base));
     }
     return shapers;
@@ -88,7 +91,8 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Knowle
 void make_directory(std::string const& path) {
     std::error_code failed;
     std::filesystem::create_directories(path, failed);
-    if (failed) throw UsageError(fmt::format("cannot make the directory {}", path), failed.message(), "Choose another --out.");
+    if (failed)
+        throw UsageError(fmt::format("cannot make the directory {}", path), failed.message(), "Choose another --out.");
 }
 
 /// 1. Simulate the individual again. 2. Look its windows up. 3. Write the trace and draw it.
@@ -107,16 +111,19 @@ void replay_run(Arguments const& arguments) {
                     "Replay it with the version of Lore and the arena file that the run was made with.");
 
     TrajectoryPicture picture;
-    picture.title = fmt::format("{}, individual {}: {} ball{}", run.config.name, text(birth->id), birth->balls, birth->balls == 1 ? "" : "s");
+    picture.title = fmt::format("{}, individual {}: {} ball{}", run.config.name, text(birth->id), birth->balls,
+                                birth->balls == 1 ? "" : "s");
     picture.poses = trace.poses;
     std::vector<std::uint8_t> carrying;
-    for (StepRecord const& step : steps) carrying.push_back(step.sensors[static_cast<std::size_t>(Channel::carrying)] > 0.5f);
+    for (StepRecord const& step : steps)
+        carrying.push_back(step.sensors[static_cast<std::size_t>(Channel::carrying)] > 0.5f);
     picture.carrying = carrying;
     picture.window_length = config.window_length;
     if (!shapers.empty()) {
         WindowValues values = values_of(trace, config.window_length, shapers);
         std::vector<std::string> names;
-        for (std::string const& path : arguments.knowledge) names.push_back(std::filesystem::path(path).stem().string());
+        for (std::string const& path : arguments.knowledge)
+            names.push_back(std::filesystem::path(path).stem().string());
         picture.title += fmt::format(", coloured by {}", fmt::join(names, " x "));
         picture.values = std::move(values.values);
         picture.lowest = values.lowest;
@@ -132,9 +139,12 @@ void replay_run(Arguments const& arguments) {
     write_file_atomically((out / "trajectory.svg").string(), svg);
     write_file_atomically((out / "trajectory.png").string(), render_png(svg));
     if (arguments.quiet) return;
-    auto const found = std::count_if(picture.values.begin(), picture.values.end(), [](double value) { return !std::isnan(value); });
+    auto const found =
+        std::count_if(picture.values.begin(), picture.values.end(), [](double value) { return !std::isnan(value); });
     fmt::print("individual {}: {} balls in {} steps{}\n", text(birth->id), birth->balls, steps.size(),
-               shapers.empty() ? "" : fmt::format(", {} of {} windows in the knowledge base{}", found, picture.values.size(), shapers.size() > 1 ? "s" : ""));
+               shapers.empty() ? ""
+                               : fmt::format(", {} of {} windows in the knowledge base{}", found, picture.values.size(),
+                                             shapers.size() > 1 ? "s" : ""));
     fmt::print("wrote {0}/trace.csv, {0}/trajectory.svg, {0}/trajectory.png\n", arguments.out);
 }
 
@@ -145,43 +155,55 @@ void replay_file(Arguments const& arguments) {
     std::vector<StepRecord> const steps = following ? follow(arena, read_trace_csv(arguments.follow, arena))
                                                     : drive(arena, read_actions_csv(arguments.actions));
     write_file_atomically(arguments.out, trace_csv(steps));
-    if (!arguments.quiet) fmt::print("wrote {}: {} steps, {} balls collected\n", arguments.out, steps.size(), steps.back().collected);
+    if (!arguments.quiet)
+        fmt::print("wrote {}: {} steps, {} balls collected\n", arguments.out, steps.size(), steps.back().collected);
 }
 
 int run(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"Repeats an evaluation: of an individual of a run, of a list of actions, or of a recorded trace.", "lore-replay"};
-    app.footer("Examples:\n"
-               "  lore-replay runs/s1 --kb kb1.lorekb --out replay       best-of-run, coloured by the values of kb1 (figure 5)\n"
-               "  lore-replay runs/s1 --kb kb1.lorekb --kb kb2.lorekb --out replay   by the product of both (figure 6)\n"
-               "  lore-replay runs/s1 --individual 312.17 --out replay   another ancestor of the last population\n"
-               "  lore-replay --actions a.csv --task source --out trace.csv          open loop: columns a0,a1,a2\n"
-               "  lore-replay --follow trace.csv.gz --task source --out mine.csv     teacher forcing: each row from the recorded one\n"
-               "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.");
+    CLI::App app{"Repeats an evaluation: of an individual of a run, of a list of actions, or of a recorded trace.",
+                 "lore-replay"};
+    app.footer(
+        "Examples:\n"
+        "  lore-replay runs/s1 --kb kb1.lorekb --out replay       best-of-run, coloured by the values of kb1 (figure "
+        "5)\n"
+        "  lore-replay runs/s1 --kb kb1.lorekb --kb kb2.lorekb --out replay   by the product of both (figure 6)\n"
+        "  lore-replay runs/s1 --individual 312.17 --out replay   another ancestor of the last population\n"
+        "  lore-replay --actions a.csv --task source --out trace.csv          open loop: columns a0,a1,a2\n"
+        "  lore-replay --follow trace.csv.gz --task source --out mine.csv     teacher forcing: each row from the "
+        "recorded one\n"
+        "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.");
     app.set_version_flag("--version", [] { return version_text("lore-replay"); });
-    app.add_option("RUN_DIR", arguments.run, "directory of a run; writes trace.csv and trajectory.svg, .png into --out");
+    app.add_option("RUN_DIR", arguments.run,
+                   "directory of a run; writes trace.csv and trajectory.svg, .png into --out");
     app.add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
-    app.add_option("--kb", arguments.knowledge, "knowledge base whose values colour the trajectory; several: their product")
+    app.add_option("--kb", arguments.knowledge,
+                   "knowledge base whose values colour the trajectory; several: their product")
         ->allow_extra_args(false);
     app.add_option("--actions", arguments.actions, "CSV with the columns a0, a1, a2: drives the robot open loop");
-    app.add_option("--follow", arguments.follow, "recorded trace (.csv or .csv.gz): repeats each row from its recorded state");
+    app.add_option("--follow", arguments.follow,
+                   "recorded trace (.csv or .csv.gz): repeats each row from its recorded state");
     app.add_option("--task", arguments.task, "task of the arena, for --actions and --follow: source or target");
-    app.add_option("--arena", arguments.arena, "arena file or built-in name, for --actions and --follow")->capture_default_str();
+    app.add_option("--arena", arguments.arena, "arena file or built-in name, for --actions and --follow")
+        ->capture_default_str();
     app.add_option("--out", arguments.out, "what to write: a directory for RUN_DIR, else a CSV file")->required();
     app.add_flag("-q,--quiet", arguments.quiet, "say nothing but errors");
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
 
     int const given = !arguments.run.empty() + !arguments.actions.empty() + !arguments.follow.empty();
     if (given != 1)
-        throw UsageError("cannot read the command line", given == 0 ? "nothing to replay" : "more than one thing to replay",
+        throw UsageError("cannot read the command line",
+                         given == 0 ? "nothing to replay" : "more than one thing to replay",
                          "Give one of RUN_DIR, --actions and --follow.");
     if (!arguments.run.empty()) {
         if (!arguments.task.empty() || app.count("--arena") > 0)
-            throw UsageError("cannot read the command line", "a run knows its own arena and task", "Leave --task and --arena out.");
+            throw UsageError("cannot read the command line", "a run knows its own arena and task",
+                             "Leave --task and --arena out.");
         replay_run(arguments);
     } else {
         if (arguments.task.empty())
-            throw UsageError("cannot read the command line", "--actions and --follow need a task", "Add --task source or --task target.");
+            throw UsageError("cannot read the command line", "--actions and --follow need a task",
+                             "Add --task source or --task target.");
         if (!arguments.knowledge.empty() || app.count("--individual") > 0)
             throw UsageError("cannot read the command line", "--kb and --individual go with a run", "Give RUN_DIR.");
         replay_file(arguments);

@@ -22,16 +22,20 @@ namespace {
 /// The whole file, uncompressed; zlib hands a file that is not gzip through as it is.
 std::string read_text(std::string const& path) {
     struct Close { void operator()(gzFile file) const { gzclose_r(file); } };
-    std::unique_ptr<gzFile_s, Close> const file{std::filesystem::is_regular_file(path) ? gzopen(path.c_str(), "rb") : nullptr};
-    if (!file) throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
+    std::unique_ptr<gzFile_s, Close> const file{std::filesystem::is_regular_file(path) ? gzopen(path.c_str(), "rb")
+                                                                                       : nullptr};
+    if (!file)
+        throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
     std::string text;
     std::array<char, 1 << 16> block;
     int got = 0;
-    while ((got = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0) text.append(block.data(), static_cast<std::size_t>(got));
+    while ((got = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0)
+        text.append(block.data(), static_cast<std::size_t>(got));
     int status = Z_OK;
     char const* const reason = gzerror(file.get(), &status);
     if (got < 0 || status != Z_OK)
-        throw Error(fmt::format("cannot read {}", path), status == Z_BUF_ERROR ? "the compressed file is cut" : reason, "Fetch it again.");
+        throw Error(fmt::format("cannot read {}", path), status == Z_BUF_ERROR ? "the compressed file is cut" : reason,
+                    "Fetch it again.");
     return text;
 }
 
@@ -50,9 +54,11 @@ public:
         auto const found = std::find(names_.begin(), names_.end(), name);
         if (found == names_.end()) {
             std::string const meant = nearest_word(name, names_.data(), names_.size());
-            fail_file(fmt::format("the header has no column '{}'{}", name, meant.empty() ? "" : fmt::format(", only '{}'", meant)));
+            fail_file(fmt::format("the header has no column '{}'{}", name,
+                                  meant.empty() ? "" : fmt::format(", only '{}'", meant)));
         }
-        if (std::find(found + 1, names_.end(), name) != names_.end()) fail_file(fmt::format("two columns are called '{}'", name));
+        if (std::find(found + 1, names_.end(), name) != names_.end())
+            fail_file(fmt::format("two columns are called '{}'", name));
         return static_cast<std::size_t>(found - names_.begin());
     }
 
@@ -71,8 +77,10 @@ public:
         std::string_view const field = fields_[column];
         Number value{};
         auto const [end, failed] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (failed != std::errc{} || end != field.data() + field.size()) fail(names_[column], fmt::format("'{}' is no {}", field.substr(0, 30), kind<Number>()));
-        if (!(value >= least && value <= most)) fail(names_[column], fmt::format("{} is outside {} .. {}", field.substr(0, 30), least, most));
+        if (failed != std::errc{} || end != field.data() + field.size())
+            fail(names_[column], fmt::format("'{}' is no {}", field.substr(0, 30), kind<Number>()));
+        if (!(value >= least && value <= most))
+            fail(names_[column], fmt::format("{} is outside {} .. {}", field.substr(0, 30), least, most));
         return value;
     }
 
@@ -85,7 +93,8 @@ private:
     static constexpr std::string_view kind() { return std::is_integral_v<Number> ? "whole number" : "number"; }
 
     [[noreturn]] void fail(std::string_view column, std::string_view reason) const {
-        throw Error(fmt::format("cannot use {}, line {}{}{}", path_, line_, column.empty() ? "" : ", column ", column), reason, "Mend the file.");
+        throw Error(fmt::format("cannot use {}, line {}{}{}", path_, line_, column.empty() ? "" : ", column ", column),
+                    reason, "Mend the file.");
     }
 
     bool next_line() {
@@ -129,8 +138,8 @@ std::string trace_csv(std::vector<StepRecord> const& rows) {
         fmt::format_to(out, "{},{},{},{}", row.step, row.pose.x, row.pose.y, row.pose.theta);
         for (float const sensor : row.sensors) fmt::format_to(out, ",{}", sensor);
         for (float const effector : row.effectors) fmt::format_to(out, ",{}", effector);
-        fmt::format_to(out, ",{:d},{:d},{},{},{:d},{},{},{},{}\n", row.carrying, row.door_open, row.balls, row.collected, row.switch_lit,
-                       row.switch_timer, row.next.x, row.next.y, row.next.theta);
+        fmt::format_to(out, ",{:d},{:d},{},{},{:d},{},{},{},{}\n", row.carrying, row.door_open, row.balls,
+                       row.collected, row.switch_lit, row.switch_timer, row.next.x, row.next.y, row.next.theta);
     }
     return text;
 }
@@ -138,9 +147,11 @@ std::string trace_csv(std::vector<StepRecord> const& rows) {
 std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& arena) {
     CsvReader csv{path};
     std::size_t const step = csv.column("step"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
-    std::size_t const carrying = csv.column("carrying"), door_open = csv.column("door_open"), balls = csv.column("balls_mask"),
-                      collected = csv.column("collected"), switch_on = csv.column("switch_on"), switch_timer = csv.column("switch_timer");
-    std::size_t const x_next = csv.column("x_next"), y_next = csv.column("y_next"), theta_next = csv.column("theta_next");
+    std::size_t const carrying = csv.column("carrying"), door_open = csv.column("door_open"),
+                      balls = csv.column("balls_mask"), collected = csv.column("collected"),
+                      switch_on = csv.column("switch_on"), switch_timer = csv.column("switch_timer");
+    std::size_t const x_next = csv.column("x_next"), y_next = csv.column("y_next"),
+                      theta_next = csv.column("theta_next");
     std::array<std::size_t, sensor_count> sensors;
     for (int i = 0; i < sensor_count; ++i) sensors[static_cast<std::size_t>(i)] = csv.column(fmt::format("in{}", i));
     std::array<std::size_t, effector_count> const effectors{csv.column("a0"), csv.column("a1"), csv.column("a2")};
@@ -150,8 +161,10 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
     while (csv.next_row()) {
         StepRecord row;
         row.step = csv.number(step, 0, largest_count);
-        row.pose = {csv.number(x, 0.0f, arena.width), csv.number(y, 0.0f, arena.height), csv.number(theta, -whole_turn, whole_turn)};
-        for (std::size_t i = 0; i < sensors.size(); ++i) row.sensors[i] = csv.number(sensors[i], -largest_sensor, largest_sensor);
+        row.pose = {csv.number(x, 0.0f, arena.width), csv.number(y, 0.0f, arena.height),
+                    csv.number(theta, -whole_turn, whole_turn)};
+        for (std::size_t i = 0; i < sensors.size(); ++i)
+            row.sensors[i] = csv.number(sensors[i], -largest_sensor, largest_sensor);
         for (std::size_t i = 0; i < effectors.size(); ++i) row.effectors[i] = csv.number(effectors[i], 0.0f, 1.0f);
         row.carrying = csv.number(carrying, 0, 1) != 0;
         row.door_open = csv.number(door_open, 0, 1) != 0;
@@ -159,7 +172,8 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
         row.collected = csv.number(collected, 0, largest_count);
         row.switch_lit = csv.number(switch_on, 0, 1) != 0;
         row.switch_timer = csv.number(switch_timer, 0, int{std::numeric_limits<std::int16_t>::max()});
-        row.next = {csv.number(x_next, 0.0f, arena.width), csv.number(y_next, 0.0f, arena.height), csv.number(theta_next, -whole_turn, whole_turn)};
+        row.next = {csv.number(x_next, 0.0f, arena.width), csv.number(y_next, 0.0f, arena.height),
+                    csv.number(theta_next, -whole_turn, whole_turn)};
         rows.push_back(row);
     }
     if (rows.empty()) csv.fail_file("it has a header but no row");

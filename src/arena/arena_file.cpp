@@ -36,7 +36,8 @@ Point read_point(TomlTable const& table, std::string_view key) {
 std::vector<Point> read_points(TomlTable const& table, std::string_view key, std::size_t most) {
     std::vector<Point> points;
     for (std::array<double, 2> const& pair : table.required_pairs(key)) points.push_back(to_point(pair));
-    if (points.empty() || points.size() > most) table.fail(key, fmt::format("1 to {} points are expected, not {}", most, points.size()));
+    if (points.empty() || points.size() > most)
+        table.fail(key, fmt::format("1 to {} points are expected, not {}", most, points.size()));
     return points;
 }
 
@@ -46,7 +47,8 @@ std::vector<Rect> read_walls(TomlTable const& table, std::string_view key, float
         entry.string("name");   // for people
         std::vector<double> const x = entry.required_numbers("x", 2), y = entry.required_numbers("y", 2);
         entry.reject_unknown();
-        Rect const wall{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(y[0]), static_cast<float>(y[1])};
+        Rect const wall{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(y[0]),
+                        static_cast<float>(y[1])};
         if (!(wall.x0 < wall.x1)) entry.fail("x", "the first bound is not below the second");
         if (!(wall.y0 < wall.y1)) entry.fail("y", "the first bound is not below the second");
         if (wall.x0 < 0 || wall.x1 > width) entry.fail("x", fmt::format("outside the arena's 0 .. {}", width));
@@ -60,13 +62,15 @@ std::vector<Rect> read_walls(TomlTable const& table, std::string_view key, float
 /// so that an arena made for other senses is refused rather than misread.
 void check_channels(TomlTable const& robot, std::string_view key, std::span<std::string_view const> known) {
     auto const listed = robot.strings(key);
-    if (!listed) robot.fail(key, "the key is missing", fmt::format("Add: {} = [\"{}\"]", key, fmt::join(known, "\", \"")));
+    if (!listed)
+        robot.fail(key, "the key is missing", fmt::format("Add: {} = [\"{}\"]", key, fmt::join(known, "\", \"")));
     for (std::size_t i = 0; i < listed->size(); ++i) {
         std::string const& word = (*listed)[i];
         if (std::find(known.begin(), known.end(), word) == known.end()) {
             std::string const meant = nearest_word(word, known.data(), known.size());
             robot.fail(key, fmt::format("the controller has no '{}'", word),
-                       meant.empty() ? fmt::format("It serves: {}.", fmt::join(known, ", ")) : fmt::format("Did you mean '{}'?", meant));
+                       meant.empty() ? fmt::format("It serves: {}.", fmt::join(known, ", "))
+                                     : fmt::format("Did you mean '{}'?", meant));
         }
         if (i >= known.size() || word != known[i])
             robot.fail(key, fmt::format("'{}' is number {} of the list", word, i + 1),
@@ -114,7 +118,8 @@ TaskRules read_task(TomlTable const& table, std::string const& name) {
     task.name = name;
     task.door = static_cast<DoorRule>(read_word(table, "door", doors));
     task.balls = static_cast<BallRule>(read_word(table, "balls", balls));
-    task.switch_pause = static_cast<int>(table.integer("switch_pause", 0, static_cast<std::int64_t>(largest_pause)).value_or(0));
+    task.switch_pause =
+        static_cast<int>(table.integer("switch_pause", 0, static_cast<std::int64_t>(largest_pause)).value_or(0));
     task.ball_positions = read_points(table, "positions", most_balls);
     table.reject_unknown();
     return task;
@@ -136,7 +141,8 @@ TaskRules const& find_task(std::vector<TaskRules> const& tasks, std::string cons
         names.push_back(task.name);
     }
     std::string const meant = nearest_word(name, names.data(), names.size());
-    throw UsageError(fmt::format("arena {} has no task '{}'", file, name), fmt::format("its tasks are: {}", fmt::join(names, ", ")),
+    throw UsageError(fmt::format("arena {} has no task '{}'", file, name),
+                     fmt::format("its tasks are: {}", fmt::join(names, ", ")),
                      meant.empty() ? "Choose one of them." : fmt::format("Did you mean '{}'?", meant));
 }
 
@@ -148,7 +154,8 @@ Arena parse_arena(std::string_view text, std::string const& name, std::string co
     arena.name = file.required_string("name");
     std::vector<double> const size = file.required_numbers("size", 2);
     for (double const edge : size)
-        if (!(edge >= 1.0 && edge <= largest_size)) file.fail("size", fmt::format("{} is outside 1 .. {}", edge, largest_size));
+        if (!(edge >= 1.0 && edge <= largest_size))
+            file.fail("size", fmt::format("{} is outside 1 .. {}", edge, largest_size));
     arena.width = static_cast<float>(size[0]);
     arena.height = static_cast<float>(size[1]);
     arena.reach = static_cast<float>(file.required_number("reach", 0.1, largest_size));
@@ -175,7 +182,8 @@ Arena parse_arena(std::string_view text, std::string const& name, std::string co
         arena.task = rules;
         arena.doors = rules.door == DoorRule::absent ? std::vector<Rect>{} : doors;
         if (std::string const wrong = why_unusable(arena); !wrong.empty())
-            throw UsageError(fmt::format("cannot use arena {} for task '{}'", name, rules.name), wrong, "Mend the arena file.");
+            throw UsageError(fmt::format("cannot use arena {} for task '{}'", name, rules.name), wrong,
+                             "Mend the arena file.");
     }
     arena.task = find_task(tasks, task, name);
     arena.doors = arena.task.door == DoorRule::absent ? std::vector<Rect>{} : doors;
@@ -193,7 +201,8 @@ std::string arena_text(std::string const& file) {
     std::ostringstream text;
     if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) {
         std::string const meant = nearest_word(file, names.data(), names.size());
-        throw UsageError(fmt::format("cannot read arena {}", file), "no such file, not readable, or empty, and no built-in arena of that name",
+        throw UsageError(fmt::format("cannot read arena {}", file),
+                         "no such file, not readable, or empty, and no built-in arena of that name",
                          meant.empty() ? fmt::format("Give the path of an arena file, or: {}.", fmt::join(names, ", "))
                                        : fmt::format("Did you mean '{}'?", meant));
     }

@@ -27,16 +27,19 @@ Slab across_y(Rect const& r) { return {r.y0, r.y1, r.x0, r.x1}; }
 /// True if everything just in front of the face is inside the wall `cover`.
 bool covers(Slab const& cover, Face const& face) {
     bool const along = cover.lo <= face.lo && face.hi <= cover.hi;
-    return along && (face.upward ? cover.near < face.at && face.at <= cover.far : cover.near <= face.at && face.at < cover.far);
+    return along &&
+           (face.upward ? cover.near < face.at && face.at <= cover.far : cover.near <= face.at && face.at < cover.far);
 }
 
 /// Faces across one axis, joined in pairs of the same interval so that a ray needs one test for two.
-std::vector<FacePair> faces_across(Slab (*slab_of)(Rect const&), float size, std::vector<Rect> const& walls, int first_door) {
+std::vector<FacePair> faces_across(Slab (*slab_of)(Rect const&), float size, std::vector<Rect> const& walls,
+                                   int first_door) {
     std::vector<FacePair> pairs;
     for (int i = 0; i < static_cast<int>(walls.size()); ++i) {
         Slab const slab = slab_of(walls[static_cast<std::size_t>(i)]);
         bool const door = i >= first_door;
-        for (Face const& face : {Face{slab.near, slab.lo, slab.hi, true, door}, Face{slab.far, slab.lo, slab.hi, false, door}}) {
+        for (Face const& face :
+             {Face{slab.near, slab.lo, slab.hi, true, door}, Face{slab.far, slab.lo, slab.hi, false, door}}) {
             bool unreachable = face.at <= 0.0f || face.at >= size;
             for (int k = 0; k < first_door && !unreachable; ++k)
                 unreachable = k != i && covers(slab_of(walls[static_cast<std::size_t>(k)]), face);
@@ -44,11 +47,14 @@ std::vector<FacePair> faces_across(Slab (*slab_of)(Rect const&), float size, std
             bool joined = false;
             for (FacePair& pair : pairs) {
                 float& place = face.upward ? pair.upward : pair.downward;
-                if (joined || place != no_face || pair.lo != face.lo || pair.hi != face.hi || pair.door != door) continue;
+                if (joined || place != no_face || pair.lo != face.lo || pair.hi != face.hi || pair.door != door)
+                    continue;
                 place = face.at;
                 joined = true;
             }
-            if (!joined) pairs.push_back({face.upward ? face.at : no_face, face.upward ? no_face : face.at, face.lo, face.hi, door});
+            if (!joined)
+                pairs.push_back(
+                    {face.upward ? face.at : no_face, face.upward ? no_face : face.at, face.lo, face.hi, door});
         }
     }
     return pairs;
@@ -88,7 +94,9 @@ void compile_geometry(Arena& arena) {
 
 namespace {
 
-int walls_standing(Geometry const& g, bool door_open) { return door_open ? g.first_door : static_cast<int>(g.walls.size()); }
+int walls_standing(Geometry const& g, bool door_open) {
+    return door_open ? g.first_door : static_cast<int>(g.walls.size());
+}
 
 } // namespace
 
@@ -107,7 +115,8 @@ std::uint32_t visible_lights(Geometry const& g, std::uint32_t wanted, float x, f
         int const light = std::countr_zero(doubtful);
         Point const& at = g.lights[static_cast<std::size_t>(light)];
         visit_walls(cell.suspects, walls_standing(g, door_open), [&](int wall) {
-            if (mechanics::segment_meets(g.walls[static_cast<std::size_t>(wall)], x, y, at.x, at.y)) visible &= ~(1u << light);
+            if (mechanics::segment_meets(g.walls[static_cast<std::size_t>(wall)], x, y, at.x, at.y))
+                visible &= ~(1u << light);
         });
     }
     return visible;

@@ -13,7 +13,9 @@ static_assert(most_turn_per_step == mechanics::most_turn);
 
 namespace {
 
-bool holds(Rect const& wall, Point const& p) { return wall.x0 <= p.x && p.x <= wall.x1 && wall.y0 <= p.y && p.y <= wall.y1; }
+bool holds(Rect const& wall, Point const& p) {
+    return wall.x0 <= p.x && p.x <= wall.x1 && wall.y0 <= p.y && p.y <= wall.y1;
+}
 
 /// The lines at which walls begin and end cut the plane in cells that are wholly wall or wholly free, so that a flood
 /// over them finds every gap, however narrow.
@@ -41,7 +43,8 @@ public:
             std::size_t const at = open.back();
             open.pop_back();
             std::size_t const column = at % columns, row = at / columns;
-            Point const middle{static_cast<float>((xs_[column] + xs_[column + 1]) / 2), static_cast<float>((ys_[row] + ys_[row + 1]) / 2)};
+            Point const middle{static_cast<float>((xs_[column] + xs_[column + 1]) / 2),
+                               static_cast<float>((ys_[row] + ys_[row + 1]) / 2)};
             if (seen[at] || inside_wall(column, row)) continue;
             seen[at] = true;
             if (column == 0 || row == 0 || column + 1 == columns || row + 1 == rows) {
@@ -56,11 +59,13 @@ public:
 private:
     static std::size_t cell(std::vector<double> const& lines, double at) {
         auto const after = std::upper_bound(lines.begin(), lines.end(), at) - lines.begin();
-        return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(lines.size()) - 2));
+        return static_cast<std::size_t>(
+            std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(lines.size()) - 2));
     }
     bool inside_wall(std::size_t column, std::size_t row) const {
         return std::any_of(walls_.begin(), walls_.end(), [&](Rect const& wall) {
-            return wall.x0 <= xs_[column] && xs_[column + 1] <= wall.x1 && wall.y0 <= ys_[row] && ys_[row + 1] <= wall.y1;
+            return wall.x0 <= xs_[column] && xs_[column + 1] <= wall.x1 && wall.y0 <= ys_[row] &&
+                   ys_[row + 1] <= wall.y1;
         });
     }
 
@@ -88,9 +93,11 @@ std::string why_unusable(Arena const& arena) {
         return {};
     };
     for (std::size_t i = 0; i < arena.task.ball_positions.size(); ++i)
-        if (auto wrong = misplaced(fmt::format("ball {}", i), arena.task.ball_positions[i]); !wrong.empty()) return wrong;
+        if (auto wrong = misplaced(fmt::format("ball {}", i), arena.task.ball_positions[i]); !wrong.empty())
+            return wrong;
     for (std::size_t i = 0; i < arena.basket_lights.size(); ++i)
-        if (auto wrong = misplaced(fmt::format("basket light {}", i), arena.basket_lights[i]); !wrong.empty()) return wrong;
+        if (auto wrong = misplaced(fmt::format("basket light {}", i), arena.basket_lights[i]); !wrong.empty())
+            return wrong;
     if (auto wrong = misplaced("the switch", arena.switch_position); !wrong.empty()) return wrong;
 
     if (Point gap; Plan{arena}.escape(arena.start, gap))

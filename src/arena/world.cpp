@@ -35,7 +35,7 @@ void press_switch(Arena const& arena, WorldState& world) {
     if (arena.task.door == DoorRule::opens_with_switch) world.door_open = true;
     if (arena.task.balls == BallRule::one_per_press) {
         std::uint32_t const absent = ~std::uint32_t{world.balls} & ((1u << arena.task.ball_positions.size()) - 1u);
-        world.balls = static_cast<std::uint16_t>(world.balls | (absent & (~absent + 1u)));   // the lowest that is absent
+        world.balls = static_cast<std::uint16_t>(world.balls | (absent & (~absent + 1u))); // the lowest that is absent
     }
 }
 
@@ -59,7 +59,8 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     float const x = robot.pose.x, y = robot.pose.y;
     mechanics::Directions<float> const look = mechanics::directions(math::sincos(robot.pose.theta));
     auto const range = [&](mechanics::Vector<float> const& d) {
-        return mechanics::range_value(cast_ray(g, x, y, d.x, d.y, world.door_open), arena.robot.sensor_range, g.inverse_range);
+        return mechanics::range_value(cast_ray(g, x, y, d.x, d.y, world.door_open), arena.robot.sensor_range,
+                                      g.inverse_range);
     };
 
     std::uint32_t const shining = world.balls | g.basket_mask | (world.switch_lit ? g.switch_mask : 0u);

@@ -29,7 +29,10 @@ WorldState simulate(Arena const& arena, Network const& network, EpisodeConfig co
 } // namespace
 
 std::uint16_t trace_bits(Sensors const& sensors, Effectors const& effectors) {
-    auto const channel = [&](int c) { return c < sensor_count ? sensors[static_cast<std::size_t>(c)] : effectors[static_cast<std::size_t>(c - sensor_count)]; };
+    auto const channel = [&](int c) {
+        return c < sensor_count ? sensors[static_cast<std::size_t>(c)]
+                                : effectors[static_cast<std::size_t>(c - sensor_count)];
+    };
     unsigned bits = 0, bit = 0;
     for (int const c : binary_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
     for (int const c : continuous_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;

@@ -4,11 +4,14 @@ namespace lore {
 
 namespace {
 
-StepRecord record(int step, Pose const& pose, Sensors const& sensors, Effectors const& effectors, WorldState const& world, Pose const& next) {
-    return {step, pose, sensors, effectors, world.carrying(), world.door_open, world.balls, world.collected, world.switch_lit, world.switch_timer, next};
+StepRecord record(int step, Pose const& pose, Sensors const& sensors, Effectors const& effectors,
+                  WorldState const& world, Pose const& next) {
+    return {step, pose, sensors, effectors, world.carrying(), world.door_open, world.balls,
+            world.collected, world.switch_lit, world.switch_timer, next};
 }
 
-StepRecord step_by_hand(Arena const& arena, int step, Effectors const& effectors, RobotState& robot, WorldState& world) {
+StepRecord step_by_hand(Arena const& arena, int step, Effectors const& effectors, RobotState& robot,
+                        WorldState& world) {
     Pose const pose = robot.pose;
     Sensors const sensors = sense(arena, robot, world);
     act(arena, pose, effectors, world);
@@ -44,7 +47,8 @@ std::vector<StepRecord> drive(Arena const& arena, std::span<Effectors const> act
     WorldState world = start_world(arena);
     std::vector<StepRecord> rows;
     rows.reserve(actions.size());
-    for (Effectors const& effectors : actions) rows.push_back(step_by_hand(arena, static_cast<int>(rows.size()), effectors, robot, world));
+    for (Effectors const& effectors : actions)
+        rows.push_back(step_by_hand(arena, static_cast<int>(rows.size()), effectors, robot, world));
     return rows;
 }
 

@@ -9,7 +9,9 @@ namespace lore {
 std::vector<double> ticks(double least, double most, int count) {
     double const rough = (most - least) / count;
     double const decade = std::pow(10.0, std::floor(std::log10(rough)));
-    double const step = decade * (rough <= 1.5 * decade ? 1 : rough <= 3.5 * decade ? 2 : rough <= 7.5 * decade ? 5 : 10);
+    double step = 10 * decade;
+    for (double const factor : {5.0, 2.0, 1.0})
+        if (rough <= 1.5 * factor * decade) step = factor * decade;
     std::vector<double> places;
     for (double i = std::ceil(least / step - 1e-9); i * step <= most + 1e-9 * step; ++i) places.push_back(i * step);
     return places;

@@ -47,7 +47,8 @@ std::string render_png(std::string_view svg, double scale) {
     if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height)) fail("it has no size in pixels");
     width = std::ceil(width * scale);
     height = std::ceil(height * scale);
-    if (!(width >= 1 && height >= 1 && width <= largest_edge && height <= largest_edge)) fail(fmt::format("{} x {} pixels", width, height));
+    if (!(width >= 1 && height >= 1 && width <= largest_edge && height <= largest_edge))
+        fail(fmt::format("{} x {} pixels", width, height));
 
     std::unique_ptr<cairo_surface_t, Release> const surface{
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height))};
@@ -57,7 +58,8 @@ std::string render_png(std::string_view svg, double scale) {
     RsvgRectangle const viewport{0, 0, width, height};
     if (!rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error)) fail(message_of(error));
     std::string png;
-    if (cairo_status_t const status = cairo_surface_write_to_png_stream(surface.get(), append, &png); status != CAIRO_STATUS_SUCCESS)
+    if (cairo_status_t const status = cairo_surface_write_to_png_stream(surface.get(), append, &png);
+        status != CAIRO_STATUS_SUCCESS)
         fail(cairo_status_to_string(status));
     return png;
 }

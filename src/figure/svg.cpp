@@ -13,7 +13,11 @@ namespace {
 /// Length of the valid UTF-8 sequence at the start of `bytes`, 0 if there is none.
 std::size_t sequence_length(std::string_view bytes) {
     auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-    std::size_t const length = byte(0) < 0x80 ? 1 : byte(0) >= 0xc2 && byte(0) < 0xe0 ? 2 : (byte(0) & 0xf0) == 0xe0 ? 3 : byte(0) >= 0xf0 && byte(0) < 0xf5 ? 4 : 0;
+    std::size_t length = 0;
+    if (byte(0) < 0x80) length = 1;
+    else if (byte(0) >= 0xc2 && byte(0) < 0xe0) length = 2;
+    else if (byte(0) >= 0xe0 && byte(0) < 0xf0) length = 3;
+    else if (byte(0) >= 0xf0 && byte(0) < 0xf5) length = 4;
     if (length > bytes.size()) return 0;
     for (std::size_t i = 1; i < length; ++i)
         if ((byte(i) & 0xc0) != 0x80) return 0;
@@ -51,7 +55,8 @@ std::string number(double value) {
 
 std::string attributes(Paint const& paint) {
     std::string text = fmt::format(" fill=\"{}\"", paint.fill);
-    if (paint.stroke != "none") text += fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", paint.stroke, number(paint.width));
+    if (paint.stroke != "none")
+        text += fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", paint.stroke, number(paint.width));
     if (!paint.dashes.empty()) text += fmt::format(" stroke-dasharray=\"{}\"", paint.dashes);
     if (paint.opacity != 1) text += fmt::format(" opacity=\"{}\"", number(paint.opacity));
     return text;
@@ -66,15 +71,16 @@ std::string coordinates(std::span<SvgPoint const> points) {
 } // namespace
 
 SvgDocument::SvgDocument(double width, double height, std::string_view title) {
-    text_ = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
-                        "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\" stroke-linejoin=\"round\">\n"
-                        "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-                        number(width), number(height), escaped(title));
+    text_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
+        "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\" stroke-linejoin=\"round\">\n"
+        "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
+        number(width), number(height), escaped(title));
 }
 
 void SvgDocument::line(SvgPoint from, SvgPoint to, Paint const& paint) {
-    text_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", number(from.x), number(from.y), number(to.x), number(to.y),
-                         attributes(paint));
+    text_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", number(from.x), number(from.y),
+                         number(to.x), number(to.y), attributes(paint));
 }
 
 void SvgDocument::polyline(std::span<SvgPoint const> points, Paint const& paint) {
@@ -86,26 +92,31 @@ void SvgDocument::polygon(std::span<SvgPoint const> points, Paint const& paint) 
 }
 
 void SvgDocument::circle(SvgPoint centre, double radius, Paint const& paint) {
-    text_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>\n", number(centre.x), number(centre.y), number(radius), attributes(paint));
+    text_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>\n", number(centre.x), number(centre.y),
+                         number(radius), attributes(paint));
 }
 
 void SvgDocument::rect(SvgPoint corner, double width, double height, Paint const& paint) {
-    text_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n", number(corner.x), number(corner.y), number(width),
-                         number(height), attributes(paint));
+    text_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n", number(corner.x), number(corner.y),
+                         number(width), number(height), attributes(paint));
 }
 
 void SvgDocument::text(SvgPoint at, std::string_view content, Label const& label) {
     static constexpr std::string_view anchors[] = {"start", "middle", "end"};
-    text_ += fmt::format("<text x=\"{0}\" y=\"{1}\" font-size=\"{2}\" fill=\"{3}\" text-anchor=\"{4}\"{5}{6}>{7}</text>\n", number(at.x),
-                         number(at.y), number(label.size), label.color, anchors[static_cast<int>(label.anchor)],
-                         label.bold ? " font-weight=\"bold\"" : "",
-                         label.rotation != 0 ? fmt::format(" transform=\"rotate({} {} {})\"", number(label.rotation), number(at.x), number(at.y)) : "",
-                         escaped(content));
+    text_ +=
+        fmt::format("<text x=\"{0}\" y=\"{1}\" font-size=\"{2}\" fill=\"{3}\" text-anchor=\"{4}\"{5}{6}>{7}</text>\n",
+                    number(at.x), number(at.y), number(label.size), label.color,
+                    anchors[static_cast<int>(label.anchor)], label.bold ? " font-weight=\"bold\"" : "",
+                    label.rotation != 0 ? fmt::format(" transform=\"rotate({} {} {})\"", number(label.rotation),
+                                                      number(at.x), number(at.y))
+                                        : "",
+                    escaped(content));
 }
 
 void SvgDocument::begin_clip(SvgPoint corner, double width, double height) {
     int const id = clips_++;
-    text_ += fmt::format("<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n<g clip-path=\"url(#clip{})\">\n",
+    text_ += fmt::format("<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
+                         "<g clip-path=\"url(#clip{})\">\n",
                          id, number(corner.x), number(corner.y), number(width), number(height), id);
 }
 

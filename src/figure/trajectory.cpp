@@ -21,17 +21,20 @@ constexpr int steps_between_robots = 50;
 constexpr double plan_width = 780, left_margin = 66, top_margin = 46, right_margin = 106;
 constexpr double axis_room = 48, strip_height = 130, bottom_margin = 52, legend_height = 26;
 
-constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", grey = "#8c8c8c", ball_color = "#e8a800",
-                           basket_color = "#2f9e6e", robot_red = "#e0452f";
+constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", grey = "#8c8c8c",
+                           ball_color = "#e8a800", basket_color = "#2f9e6e", robot_red = "#e0452f";
 
 /// White to dark blue in steps of about equal lightness (Brewer's "Blues" with a white start).
 std::string blue(double share) {
     static constexpr std::array<std::array<double, 3>, 7> stops{
-        {{255, 255, 255}, {222, 235, 247}, {171, 208, 230}, {107, 174, 214}, {55, 135, 192}, {16, 91, 164}, {8, 48, 107}}};
+        {{255, 255, 255}, {222, 235, 247}, {171, 208, 230}, {107, 174, 214}, {55, 135, 192}, {16, 91, 164},
+         {8, 48, 107}}};
     double const at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
     std::size_t const i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     double const f = at - static_cast<double>(i);
-    auto const mixed = [&](std::size_t c) { return static_cast<int>(std::lround(stops[i][c] * (1 - f) + stops[i + 1][c] * f)); };
+    auto const mixed = [&](std::size_t c) {
+        return static_cast<int>(std::lround(stops[i][c] * (1 - f) + stops[i + 1][c] * f));
+    };
     return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
 }
 
@@ -66,7 +69,8 @@ private:
     double plan_bottom() const { return top_margin + scale_ * arena_.height; }
     double strip_top() const { return plan_bottom() + axis_room + legend_height; }
     double height() const {
-        return picture_.values.empty() ? plan_bottom() + axis_room + legend_height : strip_top() + strip_height + bottom_margin;
+        return picture_.values.empty() ? plan_bottom() + axis_room + legend_height
+                                       : strip_top() + strip_height + bottom_margin;
     }
     SvgPoint place(float x, float y) const { return {x_.at(x), y_.at(y)}; }
     SvgPoint place(Point const& p) const { return place(p.x, p.y); }
@@ -81,7 +85,8 @@ private:
     }
     void paint_walls() {
         for (Rect const& wall : arena_.walls) paint_wall(wall, {.fill = wall_color});
-        for (Rect const& door : arena_.doors) paint_wall(door, {.fill = "#f2f2f2", .stroke = wall_color, .width = 1.2, .dashes = "5 3"});
+        for (Rect const& door : arena_.doors)
+            paint_wall(door, {.fill = "#f2f2f2", .stroke = wall_color, .width = 1.2, .dashes = "5 3"});
     }
     void paint_basket() {
         svg_.circle(place(arena_.basket_centre), arena_.basket_radius * scale_,
@@ -94,8 +99,10 @@ private:
             if (!at_start) svg_.circle(place(ball), 11, {.stroke = ink, .width = 1, .dashes = "3 3"});
             svg_.circle(place(ball), 6, {.fill = ball_color, .stroke = ink, .width = 1});
         }
-        svg_.circle(place(arena_.basket_centre), arena_.basket_radius * scale_, {.stroke = basket_color, .width = 1.4, .dashes = "4 3"});
-        for (Point const& light : arena_.basket_lights) svg_.circle(place(light), 4, {.fill = basket_color, .stroke = ink, .width = 0.8});
+        svg_.circle(place(arena_.basket_centre), arena_.basket_radius * scale_,
+                    {.stroke = basket_color, .width = 1.4, .dashes = "4 3"});
+        for (Point const& light : arena_.basket_lights)
+            svg_.circle(place(light), 4, {.fill = basket_color, .stroke = ink, .width = 0.8});
         Point centre{};
         for (Point const& light : arena_.basket_lights) centre = {centre.x + light.x, centre.y + light.y};
         float const lights = static_cast<float>(arena_.basket_lights.size());
@@ -113,8 +120,9 @@ private:
 
     void paint_robots() {
         for (std::size_t step = 0; step < picture_.poses.size(); step += steps_between_robots)
-            if (!stands_at(step)) paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), arena_.robot.radius * scale_,
-                                              picture_.poses[step].theta, picture_.carrying[step] != 0);
+            if (!stands_at(step))
+                paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), arena_.robot.radius * scale_,
+                            picture_.poses[step].theta, picture_.carrying[step] != 0);
     }
     /// True if the robot has not moved since the last picture of it: discs one upon the other would hide that they are
     /// half transparent.
@@ -127,7 +135,8 @@ private:
     void paint_robot(SvgPoint const& at, double radius, double theta, bool carrying) {
         svg_.circle(at, radius, {.fill = carrying ? robot_red : "#ffffff", .opacity = carrying ? 0.45 : 0.6});
         svg_.circle(at, radius, {.stroke = "#555555", .width = 0.8});
-        svg_.line(at, {at.x + radius * std::cos(theta), at.y + radius * std::sin(theta)}, {.stroke = "#555555", .width = 1.2});
+        svg_.line(at, {at.x + radius * std::cos(theta), at.y + radius * std::sin(theta)},
+                  {.stroke = "#555555", .width = 1.2});
     }
 
     void paint_trajectory() {
@@ -136,7 +145,8 @@ private:
             // One pose of the next window too, so that the line has no gaps.
             std::size_t const to = std::min(from + length + 1, picture_.poses.size());
             std::vector<SvgPoint> points;
-            for (std::size_t step = from; step < to; ++step) points.push_back(place(picture_.poses[step].x, picture_.poses[step].y));
+            for (std::size_t step = from; step < to; ++step)
+                points.push_back(place(picture_.poses[step].x, picture_.poses[step].y));
             std::size_t const window = from / length;
             if (picture_.values.empty()) {
                 svg_.polyline(points, {.stroke = blue(0.8), .width = 1.4});
@@ -205,7 +215,8 @@ private:
             svg_.line({x + width, axis.at(value)}, {x + width + 5, axis.at(value)}, {.stroke = ink});
             svg_.text({x + width + 8, axis.at(value) + 4}, tick_label(value), {.size = 11});
         }
-        svg_.text({x + width + 46, (top + bottom) / 2}, picture_.value_label, {.anchor = Anchor::middle, .rotation = -90});
+        svg_.text({x + width + 46, (top + bottom) / 2}, picture_.value_label,
+                  {.anchor = Anchor::middle, .rotation = -90});
     }
 
     void paint_strip() {
@@ -223,7 +234,8 @@ private:
         }
         std::vector<SvgPoint> stairs;
         for (std::size_t window = 0; window < picture_.values.size(); ++window) {
-            double const from = static_cast<double>(window) * picture_.window_length, to = from + picture_.window_length;
+            double const from = static_cast<double>(window) * picture_.window_length,
+                         to = from + picture_.window_length;
             bool const found = !std::isnan(picture_.values[window]);
             double const y = value.at(found ? picture_.values[window] : picture_.not_found);
             stairs.push_back({time.at(from), y});

@@ -43,7 +43,8 @@ std::string refusal(std::string const& content) {
 /// The text with the field in one row of the named column changed; row 0 is the header.
 std::string changed(std::string const& text, int row, std::string const& column, std::string const& value) {
     std::string const header = text.substr(0, text.find('\n'));
-    auto const commas = std::count(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(header.find("," + column + ",")) + 1, ',');
+    auto const commas = std::count(
+        header.begin(), header.begin() + static_cast<std::ptrdiff_t>(header.find("," + column + ",")) + 1, ',');
     std::size_t at = 0;
     for (int i = 0; i < row; ++i) at = text.find('\n', at) + 1;
     for (int i = 0; i < commas; ++i) at = text.find(',', at) + 1;

@@ -81,7 +81,8 @@ TEST(ArenaFile, needs_values_in_their_ranges) {
     expect_refused("size = [600, 400.34]", "size = [600]", "2 numbers");
     expect_refused("reach = 20", "reach = nan", "reach");
     expect_refused("x = [0, 600],          y = [394.26, 400.34]", "x = [600, 0], y = [394.26, 400.34]", "first bound");
-    expect_refused("x = [0, 600],          y = [394.26, 400.34]", "x = [0, 601], y = [394.26, 400.34]", "outside the arena");
+    expect_refused("x = [0, 600],          y = [394.26, 400.34]", "x = [0, 601], y = [394.26, 400.34]",
+                   "outside the arena");
     expect_refused("radius = 33.75", "radius = -1", "radius");
     expect_refused("switch_pause = 100", "switch_pause = -1", "switch_pause");
     expect_refused("positions = [[97.5, 50.625]]", "positions = []", "1 to 16 points");
@@ -93,7 +94,8 @@ TEST(ArenaFile, needs_values_in_their_ranges) {
 
 TEST(ArenaFile, must_be_closed) {
     expect_refused("x = [0, 600],          y = [394.26, 400.34]", "x = [0, 588], y = [394.26, 400.34]", "not closed");
-    expect_refused("x = [588.85, 600],     y = [0, 400.34]", "x = [588.85, 600], y = [9.13, 400.34]", "not closed");   // by 0.01 u
+    expect_refused("x = [588.85, 600],     y = [0, 400.34]", "x = [588.85, 600], y = [9.13, 400.34]",
+                   "not closed"); // by 0.01 u
 }
 
 TEST(ArenaFile, must_be_closed_behind_its_door_too) {

@@ -18,7 +18,8 @@ double distance_by_slabs(Geometry const& g, double x, double y, double dx, doubl
     for (std::size_t i = 0; i < (door_open ? static_cast<std::size_t>(g.first_door) : g.walls.size()); ++i) {
         Rect const& w = g.walls[i];
         double const ax = (w.x0 - x) / dx, bx = (w.x1 - x) / dx, ay = (w.y0 - y) / dy, by = (w.y1 - y) / dy;
-        double const enter = std::max(std::min(ax, bx), std::min(ay, by)), leave = std::min(std::max(ax, bx), std::max(ay, by));
+        double const enter = std::max(std::min(ax, bx), std::min(ay, by)),
+                     leave = std::min(std::max(ax, bx), std::max(ay, by));
         if (enter <= leave && leave >= 0) nearest = std::min(nearest, std::max(enter, 0.0));
     }
     return nearest;
@@ -27,7 +28,8 @@ double distance_by_slabs(Geometry const& g, double x, double y, double dx, doubl
 /// A place where the robot's disc touches nothing.
 Point free_place(Arena const& arena, Stream& rng, bool door_open) {
     while (true) {
-        Point const p{static_cast<float>(rng.uniform(0, arena.width)), static_cast<float>(rng.uniform(0, arena.height))};
+        Point const p{static_cast<float>(rng.uniform(0, arena.width)),
+                      static_cast<float>(rng.uniform(0, arena.height))};
         if (!disc_touches(*arena.geometry, p.x, p.y, door_open)) return p;
     }
 }
@@ -39,7 +41,8 @@ TEST(CastRay, measures_to_the_walls_of_a_room) {
     EXPECT_EQ(cast_ray(g, 100, 100, -1, 0, false), 90.0f);
     EXPECT_EQ(cast_ray(g, 50, 100, 0, -1, false), 90.0f);
     EXPECT_EQ(cast_ray(g, 50, 150, 0, 1, false), 40.0f);
-    EXPECT_NEAR(cast_ray(g, 100, 100, mechanics::sqrt_half, mechanics::sqrt_half, false), 90 * std::sqrt(2.0), 1e-3) << "into the corner";
+    EXPECT_NEAR(cast_ray(g, 100, 100, mechanics::sqrt_half, mechanics::sqrt_half, false), 90 * std::sqrt(2.0), 1e-3)
+        << "into the corner";
 }
 
 TEST(CastRay, passes_a_door_when_it_is_open) {
@@ -61,8 +64,10 @@ TEST(CastRay, agrees_with_the_slab_method_on_whole_rectangles) {
         double const reached = cast_ray(*arena.geometry, p.x, p.y, dx, dy, open);
         ASSERT_TRUE(std::isfinite(reached)) << "the arena leaks from (" << p.x << ", " << p.y << ") at " << angle;
         if (std::abs(reached - expected) > 1e-2) {   // a corner within rounding of the ray
-            double const one_side = distance_by_slabs(*arena.geometry, p.x, p.y, std::cos(angle + 1e-5), std::sin(angle + 1e-5), open);
-            double const other_side = distance_by_slabs(*arena.geometry, p.x, p.y, std::cos(angle - 1e-5), std::sin(angle - 1e-5), open);
+            double const one_side =
+                distance_by_slabs(*arena.geometry, p.x, p.y, std::cos(angle + 1e-5), std::sin(angle + 1e-5), open);
+            double const other_side =
+                distance_by_slabs(*arena.geometry, p.x, p.y, std::cos(angle - 1e-5), std::sin(angle - 1e-5), open);
             EXPECT_TRUE(std::abs(reached - one_side) < 1e-1 || std::abs(reached - other_side) < 1e-1) << i;
         }
     }
@@ -94,7 +99,8 @@ TEST(VisibleLights, are_exactly_those_of_the_definition) {
         std::uint32_t const all = (1u << g.lights.size()) - 1u;
         for (int i = 0; i < 500000; ++i) {
             bool const open = rng.coin();
-            float x = static_cast<float>(rng.uniform(-5, arena.width + 5)), y = static_cast<float>(rng.uniform(-5, arena.height + 5));
+            float x = static_cast<float>(rng.uniform(-5, arena.width + 5)),
+                  y = static_cast<float>(rng.uniform(-5, arena.height + 5));
             if (i % 4 == 0) x = static_cast<float>(std::round(x / 2) * 2);   // on the cells' edges
             if (i % 8 == 0) y = std::nextafter(static_cast<float>(std::round(y / 2) * 2), i % 16 == 0 ? -1e9f : 1e9f);
             std::uint32_t expected = 0;
@@ -113,13 +119,16 @@ TEST(Surroundings, name_every_wall_that_a_step_may_touch) {
         int touched = 0;
         for (int i = 0; i < 200000; ++i) {
             bool const open = rng.coin();
-            auto const x = static_cast<float>(rng.uniform(0, arena.width)), y = static_cast<float>(rng.uniform(0, arena.height));
+            auto const x = static_cast<float>(rng.uniform(0, arena.width)),
+                       y = static_cast<float>(rng.uniform(0, arena.height));
             auto const way = static_cast<float>(rng.uniform(0, arena.robot.max_speed));
             auto const direction = math::sincos(static_cast<float>(rng.uniform(-3, 3)));
             WallSet const touchable = g.surroundings.at(x, y, open).touchable;
             int const walls = open ? g.first_door : static_cast<int>(g.walls.size());
             for (int wall = 0; wall < walls; ++wall) {
-                if (!mechanics::touches(g.walls[static_cast<std::size_t>(wall)], x + way * direction.cos, y + way * direction.sin, g.radius_squared)) continue;
+                if (!mechanics::touches(g.walls[static_cast<std::size_t>(wall)], x + way * direction.cos,
+                                        y + way * direction.sin, g.radius_squared))
+                    continue;
                 ASSERT_TRUE(touchable & wall_bit(wall)) << x << ", " << y << ", wall " << wall;
                 ++touched;
             }

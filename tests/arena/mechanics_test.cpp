@@ -50,7 +50,8 @@ TEST(Arc, is_the_textbook_formula_to_float_accuracy_for_any_wheels_and_heading) 
     for (int i = 0; i < 2000; ++i) {
         float const left = static_cast<float>(rng.uniform()), right = static_cast<float>(rng.uniform());
         float const theta = static_cast<float>(rng.uniform(-pi, pi));
-        auto const way = mechanics::arc(mechanics::drive(left, right, 10.0f, 1.0f / 40.0f), math::sincos(theta));   // up to 0.5 rad
+        auto const way =
+            mechanics::arc(mechanics::drive(left, right, 10.0f, 1.0f / 40.0f), math::sincos(theta)); // up to 0.5 rad
         double const dl = 10.0 * (2.0 * left - 1), dr = 10.0 * (2.0 * right - 1), a = (dr - dl) / 40;
         double const r = dl / a + 20, u = (std::cos(a) - 1) * r, v = std::sin(a) * r;
         double const rotation = theta - pi / 2;
@@ -84,7 +85,9 @@ TEST(Contact, is_strict_at_the_radius) {
 
 TEST(SegmentMeets, a_wall_that_it_crosses_touches_or_lies_in) {
     Rect const wall{10, 20, 10, 20};
-    auto const meets = [&](float px, float py, float qx, float qy) { return mechanics::segment_meets(wall, px, py, qx, qy) != 0; };
+    auto const meets = [&](float px, float py, float qx, float qy) {
+        return mechanics::segment_meets(wall, px, py, qx, qy) != 0;
+    };
     EXPECT_TRUE(meets(0, 15, 30, 15));
     EXPECT_TRUE(meets(12, 12, 13, 13));
     EXPECT_TRUE(meets(0, 10, 30, 10)) << "along the edge: closed";
@@ -135,8 +138,10 @@ TEST(Bumpers, agree_with_sampled_wall_points_wherever_the_samples_can_tell) {
     Stream rng{2, Purpose::test};
     int decided = 0;
     for (int i = 0; i < 3000; ++i) {
-        double const x0 = rng.uniform(-30, 25), y0 = rng.uniform(-30, 25), w = rng.uniform(1, 30), h = rng.uniform(1, 30);
-        Rect const wall{static_cast<float>(x0), static_cast<float>(x0 + w), static_cast<float>(y0), static_cast<float>(y0 + h)};
+        double const x0 = rng.uniform(-30, 25), y0 = rng.uniform(-30, 25), w = rng.uniform(1, 30),
+                     h = rng.uniform(1, 30);
+        Rect const wall{static_cast<float>(x0), static_cast<float>(x0 + w), static_cast<float>(y0),
+                        static_cast<float>(y0 + h)};
         float const theta = static_cast<float>(rng.uniform(-pi, pi));
         bool const holds_centre = x0 <= 0 && x0 + w >= 0 && y0 <= 0 && y0 + h >= 0;
         if (holds_centre || !mechanics::touches(wall, 0.0f, 0.0f, 400.0f)) continue;
@@ -172,7 +177,8 @@ TEST(Ray, hits_the_face_that_looks_at_it) {
     EXPECT_EQ(mechanics::hit_vertical(faces, 100.0f, 50.0f, backward, 1000.0f), 40.0f);
     EXPECT_EQ(mechanics::hit_vertical(faces, 10.0f, 50.0f, backward, 1000.0f), 1000.0f) << "looks away";
     EXPECT_EQ(mechanics::hit_vertical(faces, 10.0f, 50.0f, forward, 30.0f), 30.0f) << "something nearer was hit";
-    EXPECT_EQ(mechanics::hit_vertical(faces, 10.0f, 100.0f, forward, 1000.0f), 40.0f) << "the end of a face belongs to it";
+    EXPECT_EQ(mechanics::hit_vertical(faces, 10.0f, 100.0f, forward, 1000.0f), 40.0f)
+        << "the end of a face belongs to it";
     EXPECT_EQ(mechanics::hit_vertical(faces, 10.0f, 100.001f, forward, 1000.0f), 1000.0f);
 }
 
@@ -211,8 +217,9 @@ TEST(InView, is_half_the_field_of_view_on_either_side) {
     float const half = 0.79039818f;   // (pi/2 + 0.01) / 2
     float const cosine = math::sincos(half).cos;
     auto const seen = [&](double bearing) {
-        return mechanics::in_view(static_cast<float>(100 * std::cos(bearing)), static_cast<float>(100 * std::sin(bearing)),
-                                  mechanics::Vector<float>{1, 0}, cosine * cosine) != 0;
+        return mechanics::in_view(static_cast<float>(100 * std::cos(bearing)),
+                                  static_cast<float>(100 * std::sin(bearing)), mechanics::Vector<float>{1, 0},
+                                  cosine * cosine) != 0;
     };
     EXPECT_TRUE(seen(0));
     EXPECT_TRUE(seen(half - 1e-4));
@@ -220,7 +227,8 @@ TEST(InView, is_half_the_field_of_view_on_either_side) {
     EXPECT_FALSE(seen(half + 1e-4));
     EXPECT_FALSE(seen(-half - 1e-4));
     EXPECT_FALSE(seen(pi)) << "squares must not make behind look like ahead";
-    EXPECT_FALSE(mechanics::in_view(0.0f, 0.0f, mechanics::Vector<float>{1, 0}, cosine * cosine)) << "a light at the centre has no bearing";
+    EXPECT_FALSE(mechanics::in_view(0.0f, 0.0f, mechanics::Vector<float>{1, 0}, cosine * cosine))
+        << "a light at the centre has no bearing";
 }
 
 TEST(Mechanics, give_the_same_bits_in_a_vector_as_alone) {
@@ -260,10 +268,13 @@ TEST(Mechanics, give_the_same_bits_in_a_vector_as_alone) {
             EXPECT_EQ(p.right != 0, pressed.right[i] != 0);
             EXPECT_EQ(p.left != 0, pressed.left[i] != 0);
             auto const r = mechanics::ray(mechanics::directions(h).left);
-            float const t = mechanics::hit_horizontal(faces, float{x[i]}, float{y[i]}, r, mechanics::hit_vertical(faces, float{x[i]}, float{y[i]}, r, 320.0f));
+            float const t =
+                mechanics::hit_horizontal(faces, float{x[i]}, float{y[i]}, r,
+                                          mechanics::hit_vertical(faces, float{x[i]}, float{y[i]}, r, 320.0f));
             EXPECT_EQ(t, hit[i]);
             EXPECT_EQ(mechanics::range_value(t, 320.0f, 1.0f / 320.0f), value[i]);
-            EXPECT_EQ(mechanics::in_view(float{x[i]}, float{y[i]}, mechanics::directions(h).right, 0.4950f) != 0, seen[i] != 0);
+            EXPECT_EQ(mechanics::in_view(float{x[i]}, float{y[i]}, mechanics::directions(h).right, 0.4950f) != 0,
+                      seen[i] != 0);
         }
     }
 }

@@ -71,11 +71,14 @@ Comparison follow(std::filesystem::path const& path) {
         WorldState world = world_before(arena, i == 0 ? nullptr : &rows[i - 1]);
         RobotState robot{{static_cast<float>(row.x()), static_cast<float>(row.y()), static_cast<float>(row.theta())},
                          row.sensor(9) > 0.5, row.sensor(10) > 0.5};
-        Effectors const actions{static_cast<float>(row.action(0)), static_cast<float>(row.action(1)), static_cast<float>(row.action(2))};
+        Effectors const actions{static_cast<float>(row.action(0)), static_cast<float>(row.action(1)),
+                                static_cast<float>(row.action(2))};
         Sensors const sensors = sense(arena, robot, world);
         for (int k = 0; k < 3; ++k, ++total.ranges)
-            total.ranges_off += std::abs(static_cast<double>(sensors[static_cast<std::size_t>(k)]) - row.sensor(k)) > 0.02;
-        for (int k = 3; k < 9; ++k, ++total.lights) total.lights_off += sensors[static_cast<std::size_t>(k)] != row.sensor(k);
+            total.ranges_off +=
+                std::abs(static_cast<double>(sensors[static_cast<std::size_t>(k)]) - row.sensor(k)) > 0.02;
+        for (int k = 3; k < 9; ++k, ++total.lights)
+            total.lights_off += sensors[static_cast<std::size_t>(k)] != row.sensor(k);
         EXPECT_EQ(sensors[11], row.sensor(11)) << name << " row " << i;
 
         act(arena, robot.pose, actions, world);
@@ -98,9 +101,13 @@ Comparison follow(std::filesystem::path const& path) {
         double const deep = depth(arena, row.x() + u * s + v * c, row.y() - u * c + v * s, world.door_open);
         Pose const before = robot.pose;
         move(arena, actions, world, robot);
-        bool const ours_stopped = robot.pose.x == before.x && robot.pose.y == before.y && std::abs(u) + std::abs(v) > 1e-3;
-        bool const theirs_stopped = row.x_next() == row.x() && row.y_next() == row.y() && std::abs(u) + std::abs(v) > 1e-3;
-        EXPECT_NEAR(std::remainder(static_cast<double>(robot.pose.theta) - row.theta_next(), 2 * 3.14159265358979), 0.0, 1e-3) << name << " row " << i;
+        bool const ours_stopped =
+            robot.pose.x == before.x && robot.pose.y == before.y && std::abs(u) + std::abs(v) > 1e-3;
+        bool const theirs_stopped =
+            row.x_next() == row.x() && row.y_next() == row.y() && std::abs(u) + std::abs(v) > 1e-3;
+        EXPECT_NEAR(std::remainder(static_cast<double>(robot.pose.theta) - row.theta_next(), 2 * 3.14159265358979), 0.0,
+                    1e-3)
+            << name << " row " << i;
         if (!ours_stopped && !theirs_stopped) {
             EXPECT_NEAR(robot.pose.x, row.x_next(), 1e-3) << name << " row " << i;
             EXPECT_NEAR(robot.pose.y, row.y_next(), 1e-3) << name << " row " << i;
@@ -140,8 +147,8 @@ TEST(RecordedTraces, are_followed_within_the_tolerances_of_their_readme) {
         all.lights_off += one.lights_off;
         all.bumpers += one.bumpers;
     }
-    std::printf("%zu traces: range sensors off in %ld of %ld, lights in %ld of %ld, bumpers compared %ld\n", files.size(), all.ranges_off,
-                all.ranges, all.lights_off, all.lights, all.bumpers);
+    std::printf("%zu traces: range sensors off in %ld of %ld, lights in %ld of %ld, bumpers compared %ld\n",
+                files.size(), all.ranges_off, all.ranges, all.lights_off, all.lights, all.bumpers);
     EXPECT_LE(static_cast<double>(all.ranges_off), 0.005 * static_cast<double>(all.ranges));
     EXPECT_LE(static_cast<double>(all.lights_off), 0.005 * static_cast<double>(all.lights));
 }

@@ -148,7 +148,8 @@ TEST(Act, brings_the_ball_of_the_target_task_again_and_again) {
 TEST(Sense, reads_the_start_of_the_source_task) {
     Arena const arena = load_arena("collectball", "source");
     Sensors const s = sense(arena, start_robot(arena), start_world(arena));
-    // At +45 degrees of heading 45 the ray goes straight down to the divider at y = 199.66, at -45 along +x to x = 588.85.
+    // At +45 degrees of heading 45 the ray goes straight down to the divider at y = 199.66, at -45 along +x to x =
+    // 588.85.
     EXPECT_NEAR(value(s, Channel::range_right), 1 - (199.66 - 101.25) / 320, 1e-5);
     EXPECT_NEAR(value(s, Channel::range_left), 1 - (588.85 - 296.25) / 320, 1e-5);
     EXPECT_NEAR(value(s, Channel::range_ahead), 1 - (199.66 - 101.25) * std::sqrt(2.0) / 320, 1e-5);
@@ -218,7 +219,10 @@ TEST(Move, never_ends_in_a_wall) {
     int stops = 0;
     for (int i = 0; i < 50000; ++i) {
         if (i == 25000) world.door_open = true;
-        if (i % 40 == 0) { left = static_cast<float>(rng.uniform(0.2, 1)); right = static_cast<float>(rng.uniform(0.2, 1)); }
+        if (i % 40 == 0) {
+            left = static_cast<float>(rng.uniform(0.2, 1));
+            right = static_cast<float>(rng.uniform(0.2, 1));
+        }
         Pose const before = robot.pose;
         move(arena, {left, right, 1.0f}, world, robot);
         ASSERT_FALSE(disc_touches(*arena.geometry, robot.pose.x, robot.pose.y, world.door_open)) << i;

@@ -12,7 +12,9 @@ std::vector<StepRecord> random_journey(Arena const& arena, std::uint32_t slot) {
     std::vector<Effectors> actions;
     Effectors action{};
     for (int step = 0; step < 2000; ++step) {
-        if (step % 25 == 0) action = {static_cast<float>(rng.uniform(0.3, 1)), static_cast<float>(rng.uniform(0.3, 1)), static_cast<float>(rng.uniform(0.4, 1))};
+        if (step % 25 == 0)
+            action = {static_cast<float>(rng.uniform(0.3, 1)), static_cast<float>(rng.uniform(0.3, 1)),
+                      static_cast<float>(rng.uniform(0.4, 1))};
         actions.push_back(action);
     }
     return drive(arena, actions);

@@ -25,7 +25,8 @@ TEST(SvgDocument, writes_its_shapes_in_order) {
     svg.circle({20, 20}, 5, {.fill = "red"});
     std::string const text = std::move(svg).finish();
     EXPECT_TRUE(contains(text, "width=\"100\" height=\"50\""));
-    std::size_t const line = text.find("<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"10.13\" fill=\"none\" stroke=\"#000000\" stroke-width=\"0.5\" stroke-dasharray=\"4 3\"/>");
+    std::size_t const line = text.find("<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"10.13\" fill=\"none\" "
+                                       "stroke=\"#000000\" stroke-width=\"0.5\" stroke-dasharray=\"4 3\"/>");
     std::size_t const circle = text.find("<circle cx=\"20\" cy=\"20\" r=\"5\" fill=\"red\"/>");
     ASSERT_NE(line, std::string::npos) << text;
     ASSERT_NE(circle, std::string::npos) << text;

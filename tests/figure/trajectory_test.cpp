@@ -35,7 +35,8 @@ struct Journey {
     }
 };
 
-constexpr std::string_view white_line = "stroke=\"#ffffff\" stroke-width=\"2.8\"", blue_line = "stroke=\"#08306b\" stroke-width=\"2.8\"";
+constexpr std::string_view white_line = "stroke=\"#ffffff\" stroke-width=\"2.8\"",
+                           blue_line = "stroke=\"#08306b\" stroke-width=\"2.8\"";
 constexpr std::string_view red_disc = "fill=\"#e0452f\"";
 
 TEST(DrawTrajectory, colours_windows_from_white_for_low_to_blue_for_high_values) {

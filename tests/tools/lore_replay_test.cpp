@@ -39,7 +39,9 @@ protected:
         std::ifstream stream{scratch.file(file), std::ios::binary};
         return {std::istreambuf_iterator<char>{stream}, {}};
     }
-    void write(std::string const& file, std::string const& text) { std::ofstream{scratch.file(file), std::ios::binary} << text; }
+    void write(std::string const& file, std::string const& text) {
+        std::ofstream{scratch.file(file), std::ios::binary} << text;
+    }
 
     Scratch scratch;
 };
@@ -61,7 +63,10 @@ TEST_F(LoreReplay, repeats_an_individual_of_a_run) {
 
 TEST_F(LoreReplay, colours_the_trajectory_by_one_knowledge_base_or_by_the_product_of_several) {
     test::write_small_run(scratch.file("run"));
-    ASSERT_EQ(test::run_program(LORE_KB " build " + scratch.file("run") + " -q --out " + scratch.file("kb.lorekb"), scratch.path()).exit_code, 0);
+    ASSERT_EQ(test::run_program(LORE_KB " build " + scratch.file("run") + " -q --out " + scratch.file("kb.lorekb"),
+                                scratch.path())
+                  .exit_code,
+              0);
     EXPECT_THAT(run("run --kb kb.lorekb --out one").output, HasSubstr("20 of 20 windows in the knowledge base"))
         << "its own lineage made the knowledge base";
     EXPECT_THAT(content("one/trajectory.svg"), HasSubstr("value (balls)"));
@@ -107,7 +112,8 @@ TEST_F(LoreReplay, refuses_wrong_files) {
 TEST_F(LoreReplay, refuses_a_run_whose_archive_tells_another_story) {
     test::write_small_run(scratch.file("run"));
     Population impostors;
-    impostors.members.push_back({std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99}), nullptr, 0, {}, 0});
+    impostors.members.push_back(
+        {std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99}), nullptr, 0, {}, 0});
     write_lineage(scratch.file("run/lineage.lore"), impostors);
     expect_refusal("run --out never", 1, "does not repeat");
 }

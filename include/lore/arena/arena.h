@@ -40,7 +40,7 @@ struct Arena {
     std::string name;
     float width = 0, height = 0;              ///< [u]
     std::vector<Rect> walls;                  ///< without the door
-    std::vector<Rect> doors;                  ///< parts of one door, all open or all shut; empty where the task has none
+    std::vector<Rect> doors;                  ///< parts of one door, all open or all shut; or none
     std::vector<Point> basket_lights;
     Point basket_centre;
     float basket_radius = 0;                  ///< a release within it scores [u]

@@ -41,7 +41,8 @@ inline constexpr float most_turn = 0.5f;
 template <class F>
 LORE_INLINE Vector<F> arc(Drive<F> const& d, math::SinCos<F> const& heading) {
     F const square = d.turn * d.turn;
-    F const sideways = d.turn * (((square * (1.0f / 40320.0f) - 1.0f / 720.0f) * square + 1.0f / 24.0f) * square - 0.5f);
+    F const sideways =
+        d.turn * (((square * (1.0f / 40320.0f) - 1.0f / 720.0f) * square + 1.0f / 24.0f) * square - 0.5f);
     F const forward = ((square * (-1.0f / 5040.0f) + 1.0f / 120.0f) * square - 1.0f / 6.0f) * square + 1.0f;
     F const u = d.way * sideways;
     F const v = d.way * forward;
@@ -103,8 +104,10 @@ LORE_INLINE auto bumpers(Rect const& wall, F const& x, F const& y, math::SinCos<
     auto const ahead = segment_meets(wall, x, y, x + rc, y + rs);
     auto const at_right = segment_meets(wall, x, y, x - rs, y + rc);
     auto const at_left = segment_meets(wall, x, y, x + rs, y - rc);
-    auto const right = ((forward > 0.0f) & (rightward > 0.0f)) | (ahead & (most_right > 0.0f)) | (at_right & (most_forward > 0.0f));
-    auto const left = ((forward > 0.0f) & (rightward < 0.0f)) | (ahead & (most_left > 0.0f)) | (at_left & (most_forward > 0.0f));
+    auto const right =
+        ((forward > 0.0f) & (rightward > 0.0f)) | (ahead & (most_right > 0.0f)) | (at_right & (most_forward > 0.0f));
+    auto const left =
+        ((forward > 0.0f) & (rightward < 0.0f)) | (ahead & (most_left > 0.0f)) | (at_left & (most_forward > 0.0f));
     return Bumpers<std::remove_const_t<decltype(right)>>{right, left};
 }
 
@@ -132,8 +135,8 @@ LORE_INLINE Ray<F> ray(Vector<F> const& d) { return {d, {1.0f / d.x, 1.0f / d.y}
 /// The smaller of `nearest` and the distance at which the ray hits one of the two faces.
 ///
 /// Only the face that looks towards the ray's origin can be hit; faces are closed intervals and are not trimmed where
-/// walls meet, so no ray slips through a corner. A ray parallel to the faces has an infinite reciprocal: t is infinite or NaN,
-/// all of it compares false, and the face is not hit.
+/// walls meet, so no ray slips through a corner. A ray parallel to the faces has an infinite reciprocal: t is infinite
+/// or NaN, all of it compares false, and the face is not hit.
 template <class F>
 LORE_INLINE F hit_vertical(FacePair const& face, F const& x, F const& y, Ray<F> const& r, F const& nearest) {
     F const t = lanes::select(r.direction.x > 0.0f, face.upward - x, face.downward - x) * r.reciprocal.x;

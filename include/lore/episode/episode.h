@@ -48,7 +48,8 @@ struct StepView {
 /// One controller in one world, one step after the other: the definition of an evaluation that every faster path must
 /// equal to the bit. Allocates nothing inside the loop.
 /// `observe` is called after each step. Returns the world's final state.
-WorldState run_episode(Arena const&, Network const&, EpisodeConfig const&, std::function<void(StepView const&)> const& observe);
+WorldState run_episode(Arena const&, Network const&, EpisodeConfig const&,
+                       std::function<void(StepView const&)> const& observe);
 
 /// The same, recorded.
 Trace record_episode(Arena const&, Network const&, EpisodeConfig const&);

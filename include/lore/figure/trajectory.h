@@ -15,7 +15,7 @@ struct TrajectoryPicture {
     std::span<Pose const> poses;                ///< before the move of each step
     std::span<std::uint8_t const> carrying;     ///< per step, 1 with a ball; as long as `poses`
     int window_length = 20;                     ///< [steps]
-    std::vector<double> values;                 ///< per window; NaN: not in the knowledge base; empty: a picture without values
+    std::vector<double> values;                 ///< per window; NaN: not in the knowledge base; may be empty
     double lowest = 0, highest = 1;             ///< ends of the colour scale
     double not_found = -1;                      ///< where the strip shows a window that is not in the knowledge base
     std::string value_label = "value (balls)";  ///< of colour bar and strip
