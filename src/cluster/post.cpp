@@ -2,16 +2,17 @@
 
 #include <lore/core/error.h>
 
+#include <chrono>
 #include <cstring>
-
-#include <sched.h>
+#include <thread>
 
 namespace lore {
 
 namespace {
 
 constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
-constexpr int polls_before_yielding = 2000;          ///< about 0.2 ms
+constexpr int polls_before_sleeping = 1000;          ///< about 0.3 ms
+constexpr std::chrono::microseconds sleep{20};        ///< with the kernel's slack about 80
 
 struct MessageHeader {
     std::uint32_t mark;
@@ -71,7 +72,8 @@ std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
 Message Post::await(std::span<MessageKind const> kinds) {
     for (int polls = 0;; ++polls) {
         if (auto message = receive(kinds)) return *std::move(message);
-        if (polls > polls_before_yielding) ::sched_yield();
+        // A process that sleeps is woken before those that keep the processor busy; one that yields is not.
+        if (polls > polls_before_sleeping) std::this_thread::sleep_for(sleep);
     }
 }
 
