@@ -6,6 +6,7 @@
 #include <lore/evolution/lineage.h>
 #include <lore/knowledge/builder.h>
 
+#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <deque>
@@ -168,8 +169,16 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     } const join{queue, simulator};
 
     KnowledgeBuilder builder{config, make_index(kind, config)};
+    int const threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
-        for (std::size_t i = 0; i < batch.size(); ++i) builder.add_individual(windows_of(batch.traces[i], config.window_length), batch.balls[i]);
+        std::vector<Exhibit> exhibits;
+        for (std::size_t i = 0; i < batch.size(); ++i)
+            exhibits.push_back({windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i])});
+        if (kind == IndexKind::exact) {
+            builder.add_individuals(exhibits, threads);
+        } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
+            for (Exhibit const& exhibit : exhibits) builder.add_individual(exhibit.windows, exhibit.balls);
+        }
         observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
     provenance.index = name(kind);

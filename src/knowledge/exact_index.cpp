@@ -36,9 +36,8 @@ using exact::PatternCache;
 using exact::Query;
 using exact::View;
 
-struct alignas(64) CacheLine { std::byte bytes[64]; };
+using exact::Digest;
 
-constexpr int partial_sums = 16;
 constexpr int fewest_block_bits = 12;   ///< a table of 2^12 slots still tells a KB of 24 000 features apart
 
 int most_differing_bits(KnowledgeConfig const& config) {
@@ -55,11 +54,9 @@ exact::Shape shape_of(KnowledgeConfig const& config) {
     int const halves[2]{shape.first_half, config.window_length - shape.first_half};
     for (int half = 0; half < 2; ++half)
         shape.scales[half] = halves[half] == 0 ? 0.0f : static_cast<float>(exact::summary_scale / std::sqrt(static_cast<double>(shape.first_half) * halves[half]));
-    shape.value_stride = (config.window_length * continuous_count + partial_sums - 1) / partial_sums * partial_sums;
     shape.most_differing = most_differing_bits(config);
     shape.tables = bits / (shape.most_differing + 1) >= fewest_block_bits ? shape.most_differing + 1 : 1;
     shape.squared_threshold = config.squared_threshold();
-    shape.entry_size = shape.words + 1;
     return shape;
 }
 
@@ -75,8 +72,8 @@ std::vector<std::uint64_t> masks_of(exact::Shape const& shape) {
 /// limits[d]: the largest squared distance of two summaries whose windows match and differ in d bits.
 std::vector<std::int32_t> limits_of(exact::Shape const& shape) {
     double const relative_error = (continuous_count * shape.window_length / 16.0 + 10) * 0x1p-23;
-    double const rounding = 0.5 + shape.first_half * 0x1p-10;   // of one number of a summary, sum and quantisation
-    double const slack = 2 * rounding * std::sqrt(static_cast<double>(exact::summary_numbers));
+    double const rounding = 0.5 + shape.first_half * 0x1p-15;   // of one number of a summary, sum and quantisation
+    double const slack = 2 * rounding * std::sqrt(static_cast<double>(exact::summary_size));
     std::vector<std::int32_t> limits;
     for (int differing = 0; differing <= shape.most_differing; ++differing) {
         double const left = std::max(0.0, static_cast<double>(shape.squared_threshold) * (1 + relative_error) - differing);
@@ -99,12 +96,13 @@ exact::Kernel kernel_of(Isa isa) {
 class ExactIndex : public FeatureIndex {
 public:
     explicit ExactIndex(KnowledgeConfig const& config)
-        : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())) {
-        double_slots();
+        : shape_(shape_of(config)), entry_size_(static_cast<std::size_t>(exact::entry_size(shape_.words))), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())) {
+        buckets_.assign(static_cast<std::size_t>(shape_.tables) << slot_bits_, {0, 0});
     }
 
     void add(Window const& window) override;
     int size() const override { return size_; }
+    FeatureWindows release() override { return std::move(features_); }
     std::unique_ptr<FeatureSearch> search() const override;
     void set_values(std::span<double const> values) override {
         assert(values.size() == static_cast<std::size_t>(size_));
@@ -118,8 +116,7 @@ public:
     std::span<double const> worth() const { return worth_; }
     bool final() const { return final_; }
     View view() const {
-        return {shape_, masks_.data(), buckets_.data(), slot_bits_, entries_.data(), summaries_.data(),
-                reinterpret_cast<float const*>(values_.data()), limits_.data()};
+        return {shape_, masks_.data(), buckets_.data(), slot_bits_, entries_.data(), features_.values.data(), limits_.data()};
     }
 
 private:
@@ -128,19 +125,18 @@ private:
         std::uint64_t const slot = exact::hash_slot(words, masks_.data() + table * shape_.words, shape_.words, slot_bits_);
         return buckets_[(static_cast<std::size_t>(table) << slot_bits_) + slot];
     }
-    void insert(int table, std::uint64_t const* words, int feature);
+    void insert(int table, std::uint64_t const* entry);
     void double_slots();
 
     exact::Shape shape_;
+    std::size_t entry_size_;
     std::vector<std::uint64_t> masks_;
     std::vector<std::int32_t> limits_;
     exact::Kernel kernel_;
-    int slot_bits_ = 7;                        ///< always at least as many slots as features
+    int slot_bits_ = 8;                        ///< always at least as many slots as features
     std::vector<exact::Bucket> buckets_;
     std::vector<std::uint64_t> entries_;
-    std::vector<std::uint64_t> patterns_;      ///< [feature][word]
-    std::vector<std::int16_t> summaries_;
-    std::vector<CacheLine> values_;
+    FeatureWindows features_;
     std::vector<double> worth_;
     bool final_ = false;
     int size_ = 0;
@@ -148,44 +144,41 @@ private:
 
 void ExactIndex::add(Window const& window) {
     assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && !final());
-    auto const feature = static_cast<std::size_t>(size_++);
-    auto const words = static_cast<std::size_t>(shape_.words);
-    patterns_.resize(patterns_.size() + words);
-    kernel_.pack(shape_, window.bits.data(), patterns_.data() + feature * words);
-    summaries_.resize(summaries_.size() + exact::summary_size);
-    kernel_.summarize(shape_, window.values.data(), summaries_.data() + feature * exact::summary_size);
-    std::size_t const lines = static_cast<std::size_t>(shape_.value_stride) * sizeof(float) / sizeof(CacheLine);
-    values_.resize(values_.size() + lines);
-    std::memcpy(values_.data() + feature * lines, window.values.data(), window.values.size_bytes());
-    if (static_cast<std::size_t>(size_) > std::size_t{1} << slot_bits_) double_slots();
-    else for (int table = 0; table < shape_.tables; ++table) insert(table, patterns_.data() + feature * words, size_ - 1);
+    features_.add(window);
+    std::vector<std::uint64_t> entry(entry_size_);
+    kernel_.pack(shape_, window.bits.data(), entry.data());
+    Digest digest{{}, size_};
+    kernel_.summarize(shape_, window.values.data(), digest);
+    std::memcpy(entry.data() + shape_.words, &digest, sizeof digest);
+    if (static_cast<std::size_t>(++size_) > std::size_t{1} << slot_bits_) double_slots();
+    for (int table = 0; table < shape_.tables; ++table) insert(table, entry.data());
 }
 
 /// A bucket has room for as many entries as the next power of two; where that is full, it moves to the end of entries_.
 /// The places left behind are as many as those in use at most, until double_slots() clears them away.
-void ExactIndex::insert(int table, std::uint64_t const* words, int feature) {
-    exact::Bucket& bucket = bucket_of(table, words);
-    auto const entry_size = static_cast<std::size_t>(shape_.entry_size);
+void ExactIndex::insert(int table, std::uint64_t const* entry) {
+    exact::Bucket& bucket = bucket_of(table, entry);
     if (std::has_single_bit(bucket.count) || bucket.count == 0) {
         std::size_t const room = std::max<std::size_t>(1, std::size_t{bucket.count} * 2);
-        std::size_t const start = entries_.size() / entry_size;
-        entries_.resize(entries_.size() + room * entry_size);
-        std::copy_n(entries_.data() + bucket.start * entry_size, bucket.count * entry_size, entries_.data() + start * entry_size);
+        std::size_t const start = entries_.size() / entry_size_;
+        entries_.resize(entries_.size() + room * entry_size_);
+        std::copy_n(entries_.data() + bucket.start * entry_size_, bucket.count * entry_size_, entries_.data() + start * entry_size_);
         bucket.start = static_cast<std::uint32_t>(start);
     }
-    std::uint64_t* const entry = entries_.data() + (bucket.start + bucket.count) * entry_size;
-    std::copy_n(words, shape_.words, entry);
-    entry[shape_.words] = static_cast<std::uint64_t>(feature);
+    std::copy_n(entry, entry_size_, entries_.data() + (bucket.start + bucket.count) * entry_size_);
     ++bucket.count;
 }
 
 void ExactIndex::double_slots() {
+    auto const old_buckets = std::move(buckets_);
+    auto const old_entries = std::move(entries_);
+    std::size_t const old_slots = std::size_t{1} << slot_bits_;
     ++slot_bits_;
     buckets_.assign(static_cast<std::size_t>(shape_.tables) << slot_bits_, {0, 0});
     entries_.clear();
-    for (int table = 0; table < shape_.tables; ++table)
-        for (int feature = 0; feature < size_; ++feature)
-            insert(table, patterns_.data() + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape_.words), feature);
+    for (std::size_t i = 0; i < old_buckets.size(); ++i)
+        for (std::uint32_t k = 0; k < old_buckets[i].count; ++k)
+            insert(static_cast<int>(i / old_slots), old_entries.data() + (old_buckets[i].start + k) * entry_size_);
 }
 
 /// Windows of one run keep repeating the same patterns (85 of 100 in an evolved population), so the features within
@@ -206,7 +199,7 @@ public:
         // They are in falling order of worth. Is there any above `least` that may be near enough to matter?
         auto const worth = index_.worth();
         std::size_t above = 0;
-        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].feature)] > least) ++above;
+        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].digest.feature)] > least) ++above;
         if (above == 0) return {};
         return match(view, window, candidates, above);
     }
@@ -219,10 +212,10 @@ private:
         if (PatternCache::List const* const known = cache_.find(words_.data())) return cache_.candidates(*known);
         std::span<Candidate> found = look_up(view);
         std::sort(found.begin(), found.end(), [&](Candidate const& a, Candidate const& b) {
-            double const a_worth = index_.worth()[static_cast<std::size_t>(a.feature)], b_worth = index_.worth()[static_cast<std::size_t>(b.feature)];
-            return a_worth != b_worth ? a_worth > b_worth : a.feature < b.feature;
+            double const a_worth = index_.worth()[static_cast<std::size_t>(a.digest.feature)], b_worth = index_.worth()[static_cast<std::size_t>(b.digest.feature)];
+            return a_worth != b_worth ? a_worth > b_worth : a.digest.feature < b.digest.feature;
         });
-        auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) { return a.feature == b.feature; });
+        auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) { return a.digest.feature == b.digest.feature; });
         return cache_.add(words_.data(), found.first(static_cast<std::size_t>(end - found.begin())));
     }
 
@@ -236,14 +229,14 @@ private:
     Match match(View const& view, Window const& window, std::span<Candidate const> candidates, std::size_t first = 0) {
         if (candidates.empty()) return {};
         exact::Kernel const& kernel = index_.kernel();
-        alignas(32) std::int16_t summary[exact::summary_size];
-        kernel.summarize(index_.shape(), window.values.data(), summary);
+        Digest digest{};
+        kernel.summarize(index_.shape(), window.values.data(), digest);
         if (promising_.size() <= candidates.size()) promising_.resize(candidates.size() * 2);
-        int kept = kernel.promising(view, summary, candidates.data(), static_cast<int>(first), promising_.data());
+        int kept = kernel.promising(view, digest, candidates.data(), static_cast<int>(first), promising_.data());
         if (first > 0 && kept == 0) return {};
         auto const rest = candidates.subspan(first);
-        kept += kernel.promising(view, summary, rest.data(), static_cast<int>(rest.size()), promising_.data() + kept);
-        Query const query{words_.data(), window.values.data(), summary};
+        kept += kernel.promising(view, digest, rest.data(), static_cast<int>(rest.size()), promising_.data() + kept);
+        Query const query{words_.data(), window.values.data()};
         exact::Nearest const nearest = kernel.nearest(view, query, promising_.data(), kept);
         return nearest.feature < 0 ? Match{} : Match{nearest.feature, nearest.squared_distance};
     }

@@ -32,8 +32,7 @@ void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) {
     for (; step < shape.window_length; ++step) place(bits[step] & ((1u << binary_count) - 1), step, binary_count);
 }
 
-void summarize(Shape const& shape, float const* values, std::int16_t* summary) {
-    for (int i = summary_numbers; i < summary_size; ++i) summary[i] = 0;
+void summarize(Shape const& shape, float const* values, Digest& digest) {
     int const ends[2]{shape.first_half, shape.window_length};
     int step = 0;
     for (int half = 0; half < 2; ++half) {
@@ -51,26 +50,27 @@ void summarize(Shape const& shape, float const* values, std::int16_t* summary) {
             // A value outside 0 .. 1 moves to the edge, which only brings two summaries nearer to each other.
             number = number > 0 ? number : 0;
             number = number < summary_scale ? number : static_cast<float>(summary_scale);
-            summary[half * continuous_count + channel] = static_cast<std::int16_t>(number);
+            digest.summary[half * continuous_count + channel] = static_cast<std::uint8_t>(number);
         }
     }
 }
 
-LORE_INLINE std::int32_t summary_distance(std::int16_t const* a, std::int16_t const* b) {
+/// The sum of the squared differences of two summaries.
+LORE_INLINE std::int32_t summary_distance(Digest const& a, Digest const& b) {
 #if defined(__SSE2__)
-    auto const squares = [&](int at) {   // of the differences of eight numbers, added in pairs
-        auto const* const from_a = reinterpret_cast<__m128i const*>(a + at);
-        auto const* const from_b = reinterpret_cast<__m128i const*>(b + at);
-        __m128i const difference = _mm_sub_epi16(_mm_loadu_si128(from_a), _mm_loadu_si128(from_b));
-        return _mm_madd_epi16(difference, difference);
-    };
-    __m128i sum = _mm_add_epi32(squares(0), squares(8));
+    __m128i const numbers = _mm_set_epi32(0, -1, -1, -1);   // not the feature's number behind them
+    __m128i const from_a = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&a)));
+    __m128i const from_b = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&b)));
+    __m128i const difference = _mm_or_si128(_mm_subs_epu8(from_a, from_b), _mm_subs_epu8(from_b, from_a));
+    __m128i const low = _mm_unpacklo_epi8(difference, _mm_setzero_si128());
+    __m128i const high = _mm_unpackhi_epi8(difference, _mm_setzero_si128());
+    __m128i sum = _mm_add_epi32(_mm_madd_epi16(low, low), _mm_madd_epi16(high, high));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0x4e));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0xb1));
     return _mm_cvtsi128_si32(sum);
 #else
     std::int32_t sum = 0;
-    for (int i = 0; i < summary_size; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    for (int i = 0; i < summary_size; ++i) sum += (a.summary[i] - b.summary[i]) * (a.summary[i] - b.summary[i]);
     return sum;
 #endif
 }
@@ -80,7 +80,7 @@ template <int FixedWords>
 LORE_INLINE int within_with(View const& view, std::uint64_t const* words, Candidate* out) {
     Shape const& shape = view.shape;
     int const count = FixedWords > 0 ? FixedWords : shape.words;
-    std::size_t const entry_size = static_cast<std::size_t>(count) + 1;
+    auto const size = static_cast<std::size_t>(entry_size(count));
     int found = 0;
     constexpr int tables_at_once = 4;   // whose memory is fetched while the hashes of the others are computed
     for (int first = 0; first < shape.tables; first += tables_at_once) {
@@ -91,16 +91,17 @@ LORE_INLINE int within_with(View const& view, std::uint64_t const* words, Candid
             buckets[table - first] = view.buckets[(static_cast<std::size_t>(table) << view.slot_bits) + slot];
         }
         for (int table = first; table < last; ++table)
-            __builtin_prefetch(view.entries + buckets[table - first].start * entry_size);
+            __builtin_prefetch(view.entries + buckets[table - first].start * size);
         for (int table = first; table < last; ++table) {
             Bucket const bucket = buckets[table - first];
-            std::uint64_t const* pattern = view.entries + bucket.start * entry_size;
-            for (std::uint32_t i = 0; i < bucket.count; ++i, pattern += entry_size) {
+            std::uint64_t const* pattern = view.entries + bucket.start * size;
+            for (std::uint32_t i = 0; i < bucket.count; ++i, pattern += size) {
                 int differing = 0;
                 for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
                 // Written in any case, kept or overwritten: the outcome cannot be predicted, and a wrong guess of the
                 // processor costs more than the rest of the loop.
-                out[found] = {static_cast<std::int32_t>(pattern[count]), differing};
+                std::memcpy(&out[found].digest, pattern + count, sizeof(Digest));
+                out[found].differing = differing;
                 found += differing <= shape.most_differing;
             }
         }
@@ -112,18 +113,17 @@ int within(View const& view, std::uint64_t const* words, Candidate* out) {
     return view.shape.words == 3 ? within_with<3>(view, words, out) : within_with<0>(view, words, out);
 }
 
-int promising(View const& view, std::int16_t const* summary, Candidate const* in, int count, Candidate* out) {
+int promising(View const& view, Digest const& window, Candidate const* in, int count, Candidate* out) {
     int kept = 0;
     for (int i = 0; i < count; ++i) {
         Candidate const candidate = in[i];
-        std::int16_t const* const other = view.summaries + static_cast<std::size_t>(candidate.feature) * summary_size;
         out[kept] = candidate;
-        kept += summary_distance(summary, other) <= view.limits[candidate.differing];
+        kept += summary_distance(window, candidate.digest) <= view.limits[candidate.differing];
     }
-    std::size_t const value_stride = static_cast<std::size_t>(view.shape.value_stride);
+    std::size_t const value_count = static_cast<std::size_t>(view.shape.window_length) * continuous_count;
     for (int i = 0; i < kept; ++i) {   // they will be compared in full
-        float const* const values = view.values + static_cast<std::size_t>(out[i].feature) * value_stride;
-        for (std::size_t at = 0; at < value_stride; at += 16) __builtin_prefetch(values + at);
+        float const* const values = view.values + static_cast<std::size_t>(out[i].digest.feature) * value_count;
+        for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
     }
     return kept;
 }
@@ -156,12 +156,11 @@ Nearest nearest(View const& view, Query const& query, Candidate const* candidate
     Nearest best{-1, view.shape.squared_threshold};
     int const value_count = view.shape.window_length * continuous_count;
     for (int i = 0; i < count; ++i) {
-        Candidate const candidate = candidates[i];
-        float const* const values = view.values + static_cast<std::size_t>(candidate.feature) * static_cast<std::size_t>(view.shape.value_stride);
-        float const distance = continuous_distance(query.values, values, value_count) + static_cast<float>(candidate.differing);
-        bool const nearer = distance < best.squared_distance ||
-                            (distance == best.squared_distance && candidate.feature < best.feature);
-        if (nearer) best = {candidate.feature, distance};
+        std::int32_t const feature = candidates[i].digest.feature;
+        float const* const values = view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count);
+        float const distance = continuous_distance(query.values, values, value_count) + static_cast<float>(candidates[i].differing);
+        bool const nearer = distance < best.squared_distance || (distance == best.squared_distance && feature < best.feature);
+        if (nearer) best = {feature, distance};
     }
     return best;
 }

@@ -34,8 +34,7 @@ public:
     void add(Window const& window) override {
         float* const row = next_row();
         flatten(window, row);
-        bits_.insert(bits_.end(), window.bits.begin(), window.bits.end());
-        values_.insert(values_.end(), window.values.begin(), window.values.end());
+        features_.add(window);
         flann::Matrix<float> const point{row, 1, columns_};
         if (forest_ == nullptr) {
             forest_ = std::make_unique<Forest>(point, flann::KDTreeIndexParams{trees_});
@@ -46,6 +45,7 @@ public:
         ++size_;
     }
     int size() const override { return size_; }
+    FeatureWindows release() override { return std::move(features_); }
     std::unique_ptr<FeatureSearch> search() const override;
 
     Match match(Window const& window, std::vector<float>& row) const {
@@ -59,10 +59,7 @@ public:
         flann::Matrix<float> distances{&flann_distance, 1, 1};
         if (forest_->knnSearch(query, neighbours, distances, 1, search_) < 1 || neighbour < 0 || neighbour >= size_) return {};
         // FLANN sums in an order of its own; what counts as a match is decided by our distance.
-        auto const length = static_cast<std::size_t>(config_.window_length);
-        std::size_t const first = static_cast<std::size_t>(neighbour) * length;
-        float const distance = squared_distance(
-            window, {{bits_.data() + first, length}, {values_.data() + first * continuous_count, length * continuous_count}});
+        float const distance = squared_distance(window, features_.window(neighbour, config_.window_length));
         return distance < config_.squared_threshold() ? Match{neighbour, distance} : Match{};
     }
 
@@ -81,8 +78,7 @@ private:
     int trees_;
     flann::SearchParams search_;
     std::vector<std::unique_ptr<float[]>> chunks_;
-    std::vector<std::uint16_t> bits_;
-    std::vector<float> values_;
+    FeatureWindows features_;
     std::unique_ptr<Forest> forest_;
     int size_ = 0;
 };

@@ -18,21 +18,17 @@ public:
     explicit ScanIndex(KnowledgeConfig const& config) : config_(config) {}
 
     void add(Window const& window) override {
-        bits_.insert(bits_.end(), window.bits.begin(), window.bits.end());
-        values_.insert(values_.end(), window.values.begin(), window.values.end());
+        features_.add(window);
         ++size_;
     }
     int size() const override { return size_; }
+    FeatureWindows release() override { return std::move(features_); }
     std::unique_ptr<FeatureSearch> search() const override;
 
     Match match(Window const& window) const {
-        auto const length = static_cast<std::size_t>(config_.window_length);
         Match nearest;
         for (int feature = 0; feature < size_; ++feature) {
-            std::size_t const first = static_cast<std::size_t>(feature) * length;
-            Window const candidate{{bits_.data() + first, length},
-                                   {values_.data() + first * continuous_count, length * continuous_count}};
-            float const distance = squared_distance(window, candidate);
+            float const distance = squared_distance(window, features_.window(feature, config_.window_length));
             if (distance < nearest.squared_distance && distance < config_.squared_threshold())
                 nearest = {feature, distance};
         }
@@ -41,8 +37,7 @@ public:
 
 private:
     KnowledgeConfig config_;
-    std::vector<std::uint16_t> bits_;
-    std::vector<float> values_;
+    FeatureWindows features_;
     int size_ = 0;
 };
 
@@ -58,6 +53,17 @@ private:
 std::unique_ptr<FeatureSearch> ScanIndex::search() const { return std::make_unique<ScanSearch>(*this); }
 
 } // namespace
+
+void FeatureWindows::add(Window const& window) {
+    for (std::uint16_t const word : window.bits) bits.push_back(word & window_bits_mask);
+    values.insert(values.end(), window.values.begin(), window.values.end());
+}
+
+Window FeatureWindows::window(int feature, int window_length) const {
+    auto const length = static_cast<std::size_t>(window_length);
+    std::size_t const first = static_cast<std::size_t>(feature) * length;
+    return {{bits.data() + first, length}, {values.data() + first * continuous_count, length * continuous_count}};
+}
 
 std::string_view name(IndexKind kind) { return index_names[static_cast<std::size_t>(kind)]; }
 

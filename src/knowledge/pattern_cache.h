@@ -19,8 +19,8 @@ public:
         std::uint32_t count;
     };
 
-    /// With 20 candidates a pattern, as usual, both limits are reached together, at about 25 MB.
-    explicit PatternCache(int words, std::size_t most_patterns = 1u << 16, std::size_t most_candidates = 1u << 21);
+    /// With 16 candidates a pattern, as usual, both limits are reached together, at about 25 MB.
+    explicit PatternCache(int words, std::size_t most_patterns = 1u << 16, std::size_t most_candidates = 1u << 20);
 
     /// Null if the pattern is not known. Valid until the next add.
     List const* find(std::uint64_t const* words) const;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace lore;
 using lore::test::trace_of;
 
@@ -71,4 +73,34 @@ TEST(KnowledgeBuilder, keeps_only_channels_of_the_words) {
     KnowledgeBase const base = std::move(builder).finish({});
     EXPECT_EQ(base.window(0).bits[0], 1);
     EXPECT_EQ(base.window(0).bits[1], 0);
+}
+
+TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_number_of_threads) {
+    KnowledgeConfig const config;
+    Stream rng{51, Purpose::test};
+    std::vector<Trace> traces;
+    for (int i = 0; i < 24; ++i) traces.push_back(i % 3 == 2 ? traces[static_cast<std::size_t>(i) - 2] : test::lifelike_trace(rng, 1000));
+    std::vector<Exhibit> exhibits;
+    for (std::size_t i = 0; i < traces.size(); ++i) exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(i % 5)});
+
+    KnowledgeBuilder plain{config, make_scan_index(config)};
+    for (Exhibit const& exhibit : exhibits) plain.add_individual(exhibit.windows, exhibit.balls);
+    std::uint64_t const matched = plain.matched();
+    KnowledgeBase const expected = std::move(plain).finish({});
+    EXPECT_GT(matched, 0u);
+    for (int const threads : {1, 2, 5})
+        for (std::size_t const batch : {1u, 7u, 24u}) {
+            KnowledgeBuilder builder{config, make_exact_index(config)};
+            for (std::size_t first = 0; first < exhibits.size(); first += batch)
+                builder.add_individuals(std::span{exhibits}.subspan(first, std::min(batch, exhibits.size() - first)), threads);
+            EXPECT_EQ(builder.matched(), matched);
+            EXPECT_EQ(builder.individuals(), exhibits.size());
+            KnowledgeBase const base = std::move(builder).finish({});
+            ASSERT_EQ(base.size(), expected.size());
+            for (int i = 0; i < base.size(); ++i) {
+                ASSERT_EQ(base.value(i), expected.value(i));
+                ASSERT_EQ(base.count(i), expected.count(i));
+                ASSERT_EQ(squared_distance(base.window(i), expected.window(i)), 0.0f);
+            }
+        }
 }

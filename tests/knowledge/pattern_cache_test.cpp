@@ -17,7 +17,7 @@ namespace {
 /// What would be remembered of a pattern: a list that follows from it.
 std::vector<Candidate> list_of(std::uint64_t pattern) {
     std::vector<Candidate> list;
-    for (std::uint64_t i = 0; i < pattern % 7; ++i) list.push_back({static_cast<std::int32_t>(pattern % 1000 + i), static_cast<std::int32_t>(i)});
+    for (std::uint64_t i = 0; i < pattern % 7; ++i) list.push_back({{{}, static_cast<std::int32_t>(pattern % 1000 + i)}, static_cast<std::int32_t>(i)});
     return list;
 }
 
@@ -28,7 +28,7 @@ void expect_kept(PatternCache const& cache, std::array<std::uint64_t, 3> const& 
     std::vector<Candidate> const expected = list_of(words[0]);
     ASSERT_EQ(kept.size(), expected.size());
     for (std::size_t i = 0; i < kept.size(); ++i) {
-        EXPECT_EQ(kept[i].feature, expected[i].feature);
+        EXPECT_EQ(kept[i].digest.feature, expected[i].digest.feature);
         EXPECT_EQ(kept[i].differing, expected[i].differing);
     }
 }

@@ -12,8 +12,9 @@ namespace lore {
 using BuildingObserver = std::function<void(std::int64_t individuals, std::int64_t features)>;
 
 /// The windows of an archived individual are not stored: it is simulated again, which repeats its evaluation exactly.
-/// Both functions throw Error if a repeated evaluation does not deliver the archived number of balls. One thread
-/// simulates a batch while another matches the former one; memory is bounded by a few batches and the base itself.
+/// Both functions throw Error if a repeated evaluation does not deliver the archived number of balls. A thread
+/// simulates a batch while others match the former one, one a processor; the result does not depend on how many. Memory
+/// is bounded by a few batches and the base itself.
 ///
 /// Of `provenance` the caller sets made_by; kind, index, sources, task and the counts are filled in here.
 

@@ -4,6 +4,12 @@
 
 namespace lore {
 
+/// What an individual showed, and what it earned.
+struct Exhibit {
+    std::vector<Window> windows;
+    double balls = 0;
+};
+
 /// Algorithm 1, one individual at a time. The caller brings the individuals in order: the best-of-run first, then its
 /// parent, and so on to the founder; or all ever evaluated in order of birth ("KB all").
 class KnowledgeBuilder {
@@ -12,6 +18,8 @@ public:
     KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index);
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
     void add_individual(std::span<Window const>, double balls);
+    /// As add_individual for each in order, with the search shared among threads. Precondition: the index is an exact one.
+    void add_individuals(std::span<Exhibit const>, int threads);
     int features() const { return static_cast<int>(counts_.size()); }
     std::uint64_t individuals() const { return individuals_; }
     std::uint64_t windows() const { return windows_; }
@@ -20,11 +28,13 @@ public:
     KnowledgeBase finish(Provenance) &&;
 
 private:
+    int add_feature();
+    void reward(int feature, double balls);
+    std::vector<Match> match_all(std::span<Window const* const>, int threads);
+
     KnowledgeConfig config_;
     std::unique_ptr<FeatureIndex> index_;
-    std::unique_ptr<FeatureSearch> search_;
-    std::vector<std::uint16_t> bits_;
-    std::vector<float> values_;
+    std::vector<std::unique_ptr<FeatureSearch>> searches_;   ///< one a thread
     std::vector<double> sums_;
     std::vector<std::uint32_t> counts_;
     std::vector<std::uint64_t> last_exhibitor_;   ///< per feature, so that an individual counts once

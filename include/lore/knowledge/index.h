@@ -2,9 +2,10 @@
 
 #include <lore/knowledge/knowledge_base.h>
 
-#include <memory>
 #include <limits>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 namespace lore {
 
@@ -32,14 +33,25 @@ public:
     virtual Match match_above(Window const& window, double least) { (void)least; return match(window); }
 };
 
-/// Finds the nearest feature of a growing set of windows. Copies what it needs. Reading it (by searches, also from
-/// several threads) and adding to it exclude each other.
+/// The windows of features, one after the other; the only copy while a knowledge base is being built.
+struct FeatureWindows {
+    std::vector<std::uint16_t> bits;   ///< [feature][step], without the bits that are no channels of a window
+    std::vector<float> values;         ///< [feature][step][6]
+
+    void add(Window const&);
+    Window window(int feature, int window_length) const;   ///< valid until the next add
+};
+
+/// Finds the nearest feature of a growing set of windows, which it copies. Reading it (by searches, also from several
+/// threads) and adding to it exclude each other.
 class FeatureIndex {
 public:
     virtual ~FeatureIndex() = default;
     /// Feature number = order of addition. Precondition: values were not set yet.
     virtual void add(Window const&) = 0;
     virtual int size() const = 0;
+    /// Hands over the windows of all features; nothing but destruction may follow.
+    virtual FeatureWindows release() = 0;
     virtual std::unique_ptr<FeatureSearch> search() const = 0;
     /// What each feature is worth, once all are added; lets match_above pass over the others.
     virtual void set_values(std::span<double const>) {}
