@@ -265,7 +265,8 @@ std::string draw_panels(CampaignPlan const& plan, Results const& results, std::s
         for (double& value : picture.values)
             if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
         picture.lowest = 0;
-        picture.highest = std::max(1e-9, *std::max_element(panel.values.begin(), panel.values.end()));
+        picture.highest = *std::max_element(panel.values.begin(), panel.values.end());
+        if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
         picture.not_found = product ? 0 : -1;
         picture.value_label = product ? "product of the values" : "value (balls)";
         panels.push_back(draw_trajectory(arena, picture));

@@ -60,8 +60,7 @@ private:
 };
 
 std::string treatments_table(CampaignPlan const& plan, Results const& results) {
-    HtmlTable table{"treatments", {{"treatment", true}, {"runs"}, {"planned"}, {"mean"}, {"standard deviation"}, {"least"}, {"lower quartile"},
-                                   {"median"}, {"upper quartile"}, {"most"}}};
+    HtmlTable table{"treatments", {{"treatment", true}, {"runs"}, {"planned"}, {"mean"}, {"sd"}, {"least"}, {"Q1"}, {"median"}, {"Q3"}, {"most"}}};
     auto add = [&](Treatment const& treatment) {
         auto const balls = results.final_balls(treatment.name);
         std::vector<std::string> cells{treatment.label, std::to_string(balls.size()), std::to_string(treatment.runs)};
@@ -112,12 +111,12 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
 
 std::string bases_table(CampaignPlan const& plan, Results const& results) {
     HtmlTable table{"knowledge", {{"knowledge base", true}, {"made from", true}, {"source run"}, {"seed"}, {"balls"}, {"individuals"}, {"windows"},
-                                  {"features"}, {"least value"}, {"greatest value"}}};
+                                  {"features"}, {"values"}}};
     for (KnowledgeRow const& base : results.bases) {
         auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& k) { return k.name == base.knowledge; });
         table.row({planned == plan.knowledge.end() ? base.knowledge : planned->label, base.kind, std::to_string(base.source_run), std::to_string(base.seed),
                    std::to_string(base.balls), std::to_string(base.individuals), std::to_string(base.windows), std::to_string(base.features),
-                   fmt::format("{:.3f}", base.least_value), fmt::format("{:.3f}", base.greatest_value)});
+                   fmt::format("{:.2f} .. {:.2f}", base.least_value, base.greatest_value)});
     }
     return std::move(table).finish();
 }
@@ -233,7 +232,9 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     if (results.runs.size() < planned)
         page += "<p class=\"warning\">This campaign is not complete: treatments with fewer runs than planned are compared with what they have.</p>\n";
 
-    page += "<h2 id=\"performance\">Performance</h2>\n" + treatments_table(plan, results);
+    page += "<h2 id=\"performance\">Performance</h2>\n" + treatments_table(plan, results) +
+            "<p class=\"note\">Collected balls of the best-of-runs at the last generation: mean, standard deviation (n - 1), quartiles (interpolated, "
+            "type 7).</p>\n";
     page += figure(figures, "figure3", "<b>Figure 3.</b> Number of collected balls of the best-of-run individual along generations, averaged over the runs of "
                    "each treatment. Bands: 95 % percentile bootstrap of the mean. The dashed line is the source task, where other balls count.");
     page += figure(figures, "figure4", "<b>Figure 4.</b> Collected balls of the best-of-run at the last generation; every point is a run. Boxes: quartiles and "
@@ -245,7 +246,9 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
         page += "<p>The same pairs with Holm's correction for all of them, and the effect size A12: the probability that a run of <i>a</i> collects more "
                 "balls than one of <i>b</i> (equal counts half).</p>\n" + pairs_table(plan, comparisons);
     }
-    if (!results.bases.empty()) page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results);
+    if (!results.bases.empty())
+        page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
+                "<p class=\"note\">Balls: of the source run's best-of-run. Individuals: whose windows were read, the length of the lineage where it is one.</p>\n";
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().step);
     page += figure(figures, "figure5", fmt::format("<b>Figure 5.</b> Trajectory of the best-of-run of {}, coloured by the values of its windows in single "
                    "knowledge bases; below each, value by time step (-1: not found).", trajectory));
