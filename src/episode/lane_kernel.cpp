@@ -10,14 +10,12 @@ namespace lore::LORE_ISA_NAMESPACE {
 namespace {
 
 constexpr int width = LORE_LANES;
+constexpr int row = width * lane_vectors;   // of every array [..][lane]
 using F = Lanes<float, width>;
 using I = Lanes<std::int32_t, width>;
 using Words = Lanes<std::uint16_t, width>;
 
 constexpr int inputs = 12, outputs = 3;
-
-struct Hits { F right, left, ahead; };
-using Rays = mechanics::Ray<F>[3];
 
 LORE_INLINE F ones_where(I const& mask) { return lanes::select(mask, lanes::all_of<F>(1.0f), F{}); }
 
@@ -63,8 +61,8 @@ struct Known { I clear, mixed, suspects, touchable; };
 LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I const& open) {
     // Robots cannot leave the closed arena; the bounds only keep every read inside the table.
     F const column = lanes::min(lanes::max(F(x * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.columns - 1)));
-    F const row = lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
-    I const cell = lanes::truncate(row) * arena.columns + lanes::truncate(column) + (open & arena.open_offset);
+    F const line = lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
+    I const cell = lanes::truncate(line) * arena.columns + lanes::truncate(column) + (open & arena.open_offset);
     I const word = cell * 4;
     return {lanes::gather(arena.cells, word), lanes::gather(arena.cells + 1, word), lanes::gather(arena.cells + 2, word),
             lanes::gather(arena.cells + 3, word)};
@@ -103,145 +101,195 @@ LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y
     return {right & visible, left & visible, near & shining};
 }
 
+/// A wall of its own for every lane.
+struct Walls {
+    F x0{}, x1{}, y0{}, y1{};
+    LORE_INLINE void take(I const& mask, Rect const& wall) {
+        x0 = lanes::select(mask, lanes::all_of<F>(wall.x0), x0);
+        x1 = lanes::select(mask, lanes::all_of<F>(wall.x1), x1);
+        y0 = lanes::select(mask, lanes::all_of<F>(wall.y0), y0);
+        y1 = lanes::select(mask, lanes::all_of<F>(wall.y1), y1);
+    }
+};
+
 /// What the attempted move meets.
 struct Contact { I any, right, left; };
 
 LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F const& x, F const& y, math::SinCos<F> const& heading, I const& open) {
-    Contact contact{};
+    Contact contact{I{}, I{}, I{}};
+    auto const press = [&](I const& touched, auto const& walls) __attribute__((always_inline)) {
+        auto const pressed = mechanics::bumpers(walls, x, y, heading, arena.radius);
+        contact.right |= pressed.right & touched;
+        contact.left |= pressed.left & touched;
+    };
+    // A lane seldom touches more than one wall, or two in a corner, but the lanes touch different ones: all first
+    // walls are judged at once, then all second ones.
+    Walls first, second;
+    I again{}, more{};
     visit_walls(touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
         Rect const& wall = arena.walls[i];
         I touched = mechanics::touches(wall, x, y, arena.radius_squared);
         if (i >= arena.first_door) touched &= ~open;
-        if (!lanes::any(touched)) return;
-        auto const pressed = mechanics::bumpers(wall, x, y, heading, arena.radius);
+        first.take(touched & ~contact.any, wall);
+        second.take(touched & contact.any & ~again, wall);
+        more |= touched & again;
+        again |= touched & contact.any;
         contact.any |= touched;
-        contact.right |= pressed.right & touched;
-        contact.left |= pressed.left & touched;
+    });
+    if (!lanes::any(contact.any)) return contact;
+    press(contact.any, first);
+    if (!lanes::any(again)) return contact;
+    press(again, second);
+    if (!lanes::any(more)) return contact;
+    visit_walls(touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
+        I touched = mechanics::touches(arena.walls[i], x, y, arena.radius_squared) & more;
+        if (i >= arena.first_door) touched &= ~open;
+        press(touched, arena.walls[i]);
     });
     return contact;
 }
 
+/// Reads the sensors of one vector, whose lanes start at `at`: into the networks' inputs, the chunk and the word.
+LORE_INLINE void sense(LaneWork& work, int at, int step) {
+    LaneArena const& arena = work.arena;
+    F const x = lanes::load<F>(work.x + at), y = lanes::load<F>(work.y + at);
+    I const open = lanes::load<I>(work.door_open + at);
+    I const shining = lanes::load<I>(work.balls + at) | static_cast<std::int32_t>(arena.basket_mask)
+                    | (lanes::load<I>(work.switch_lit + at) & static_cast<std::int32_t>(arena.switch_mask));
+    Known const known = look_up(arena, x, y, open);
+    mechanics::Directions<F> const look = mechanics::directions(math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
+    F distances[3];
+    cast_rays(arena, x, y, look, ~open, distances);
+    LightsSeen const lights = see_lights(arena, x, y, look, known, shining, open);
+    auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline)) -> I { return (seen & static_cast<std::int32_t>(kind)) != 0; };
+    I const binary[9] = {sees(lights.right, arena.ball_mask), sees(lights.left, arena.ball_mask),
+                         sees(lights.right, arena.basket_mask), sees(lights.left, arena.basket_mask),
+                         sees(lights.right, arena.switch_mask), sees(lights.left, arena.switch_mask),
+                         lanes::load<I>(work.bumper_right + at), lanes::load<I>(work.bumper_left + at), lanes::load<I>(work.carrying + at)};
+    I word{};
+    for (int b = 0; b < 9; ++b) {
+        lanes::store(work.neurons + (3 + b) * row + at, ones_where(binary[b]));
+        word |= binary[b] & (1 << b);
+    }
+    for (int r = 0; r < 3; ++r) {
+        F const value = mechanics::range_value(distances[r], arena.sensor_range, arena.inverse_range);
+        lanes::store(work.neurons + r * row + at, value);
+        lanes::store(work.values + (step * 6 + r) * row + at, value);
+        word |= (value > 0.5f) & (1 << (9 + r));
+    }
+    lanes::store(work.word + at, word);
+    lanes::store(work.in_reach + at, sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
+    lanes::store(work.trail_x + step * row + at, x);
+    lanes::store(work.trail_y + step * row + at, y);
+    work.touchable[at / width] = lanes::reduce_or(known.touchable);
+}
+
 LORE_INLINE F activation(F const& bias, F const& sum) { return 1.0f / (1.0f + math::exp(F(bias - sum))); }
 
-template <int count>
-LORE_INLINE void tick_group(LaneWork& work, NeuronGroup const& group, F (&output)[outputs]) {
+template <int vectors, int count>
+LORE_INLINE void tick_group(LaneWork& work, NeuronGroup const& group, float* outputs_row) {
     LaneNetworks const& networks = work.networks;
-    F sums[count] = {};
+    F sums[vectors][count];
+    for (auto& of_vector : sums)
+        for (F& sum : of_vector) sum = F{};
     for (int entry = group.first_entry; entry < group.last_entry; ++entry) {
-        F const source = lanes::load<F>(work.neurons + networks.sources[entry] * width);
-        float const* weights = networks.weights + networks.offsets[entry];
-        for (int k = 0; k < count; ++k) sums[k] += lanes::load<F>(weights + k * width) * source;
+        float const* const source = work.neurons + networks.sources[entry] * row;
+        float const* const weights = networks.weights + networks.offsets[entry];
+        for (int v = 0; v < vectors; ++v) {
+            F const value = lanes::load<F>(source + v * width);
+            for (int k = 0; k < count; ++k) sums[v][k] += lanes::load<F>(weights + k * row + v * width) * value;
+        }
     }
     for (int k = 0; k < count; ++k) {
         int const target = group.first_target + k;
-        F const y = activation(lanes::load<F>(networks.biases + target * width), sums[k]);
-        if (count == outputs) output[k] = y;   // only the first group has three targets
-        else lanes::store(work.next_hidden + (target - outputs) * width, y);
+        float* const to = target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row;
+        for (int v = 0; v < vectors; ++v)
+            lanes::store(to + v * width, activation(lanes::load<F>(networks.biases + target * row + v * width), sums[v][k]));
     }
 }
 
-LORE_INLINE void tick(LaneWork& work, F (&output)[outputs]) {
+/// One tick of all lanes' networks; the outputs go to three rows.
+template <int vectors>
+LORE_INLINE void tick(LaneWork& work, float* outputs_row) {
     for (int g = 0; g < work.networks.group_count; ++g) {
         NeuronGroup const& group = work.networks.groups[g];
         switch (group.count) {
-        case 3: tick_group<3>(work, group, output); break;
-        case 4: tick_group<4>(work, group, output); break;
-        case 2: tick_group<2>(work, group, output); break;
-        default: tick_group<1>(work, group, output); break;
+        case 4: tick_group<vectors, 4>(work, group, outputs_row); break;
+        case 3: tick_group<vectors, 3>(work, group, outputs_row); break;
+        case 2: tick_group<vectors, 2>(work, group, outputs_row); break;
+        default: tick_group<vectors, 1>(work, group, outputs_row); break;
         }
     }
-    for (int i = 0; i < work.networks.hidden_count * width; i += width)
-        lanes::store(work.neurons + inputs * width + i, lanes::load<F>(work.next_hidden + i));
+    for (int i = 0; i < work.networks.hidden_count * row; i += width)
+        lanes::store(work.neurons + inputs * row + i, lanes::load<F>(work.next_hidden + i));
 }
 
 /// Counts down the pause of the switch, then lets the rules decide where something happens.
-LORE_INLINE void act(LaneWork& work, F const& collect, I const& in_reach) {
+LORE_INLINE void act(LaneWork& work, int at, F const& collect) {
     I const collecting = collect >= 0.5f;
-    I const carrying = lanes::load<I>(work.carrying);
-    I eventful = (carrying & ~collecting) | (in_reach & collecting & ~carrying);
+    I const carrying = lanes::load<I>(work.carrying + at);
+    I eventful = (carrying & ~collecting) | (lanes::load<I>(work.in_reach + at) & collecting & ~carrying);
     if (work.arena.switch_pause > 0) {
-        I const lit = lanes::load<I>(work.switch_lit), timer = lanes::load<I>(work.switch_timer);
+        I const lit = lanes::load<I>(work.switch_lit + at), timer = lanes::load<I>(work.switch_timer + at);
         I const pausing = ~lit & (timer > 0);
         // A lamp that is lit again in this very step may be pressed in it; let the rules find out.
         I const relit = ~lit & ~pausing;
         eventful |= relit & collecting & ~carrying;
-        lanes::store(work.switch_timer, timer + (pausing & ~eventful));
-        lanes::store(work.switch_lit, lit | (relit & ~eventful));
+        lanes::store(work.switch_timer + at, timer + (pausing & ~eventful));
+        lanes::store(work.switch_lit + at, lit | (relit & ~eventful));
     }
     for (std::uint32_t left = lanes::mask_bits(eventful); left != 0; left &= left - 1) {
         int const lane = __builtin_ctz(left);
-        work.act(work, lane, collect[lane]);
+        work.act(work, at + lane, collect[lane]);
+    }
+}
+
+LORE_INLINE void move(LaneWork& work, int at, F const& left_wheel, F const& right_wheel) {
+    LaneArena const& arena = work.arena;
+    F const x = lanes::load<F>(work.x + at), y = lanes::load<F>(work.y + at);
+    mechanics::Drive<F> const drive = mechanics::drive(left_wheel, right_wheel, arena.max_speed, arena.inverse_wheel_distance);
+    mechanics::Vector<F> const way = mechanics::arc(drive, math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
+    F const next_x = x + way.x, next_y = y + way.y;
+    F const theta = mechanics::wrap(F(lanes::load<F>(work.theta + at) + drive.turn));
+    math::SinCos<F> const heading = math::sincos(theta);
+    Contact const contact = touch_walls(arena, work.touchable[at / width], next_x, next_y, heading, lanes::load<I>(work.door_open + at));
+    lanes::store(work.x + at, lanes::select(contact.any, x, next_x));
+    lanes::store(work.y + at, lanes::select(contact.any, y, next_y));
+    lanes::store(work.theta + at, theta);
+    lanes::store(work.heading_sin + at, heading.sin);
+    lanes::store(work.heading_cos + at, heading.cos);
+    lanes::store(work.bumper_right + at, contact.right);
+    lanes::store(work.bumper_left + at, contact.left);
+}
+
+template <int vectors>
+void run(LaneWork& work, int first, int last) {
+    for (int at = 0; at < vectors * width; at += width) {
+        math::SinCos<F> const heading = math::sincos(lanes::load<F>(work.theta + at));
+        lanes::store(work.heading_sin + at, heading.sin);
+        lanes::store(work.heading_cos + at, heading.cos);
+    }
+    for (int step = first; step < last; ++step) {
+        for (int at = 0; at < vectors * width; at += width) sense(work, at, step);
+        float* const effectors = work.values + (step * 6 + 3) * row;
+        tick<vectors>(work, effectors);
+        for (int at = 0; at < vectors * width; at += width) {
+            F const collect = lanes::load<F>(effectors + 2 * row + at);
+            I word = lanes::load<I>(work.word + at);
+            for (int e = 0; e < outputs; ++e) word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) & (1 << (12 + e));
+            lanes::store(work.words + step * row + at, __builtin_convertvector(word, Words));
+            act(work, at, collect);
+        }
+        for (int at = 0; at < vectors * width; at += width)
+            move(work, at, lanes::load<F>(effectors + at), lanes::load<F>(effectors + row + at));
     }
 }
 
 } // namespace
 
 void run_steps(LaneWork& work, int first, int last) {
-    LaneArena const& arena = work.arena;
-    F x = lanes::load<F>(work.x), y = lanes::load<F>(work.y), theta = lanes::load<F>(work.theta);
-    I bumper_right = lanes::load<I>(work.bumper_right), bumper_left = lanes::load<I>(work.bumper_left);
-    math::SinCos<F> heading = math::sincos(theta);
-
-    for (int step = first; step < last; ++step) {
-        I open = lanes::load<I>(work.door_open);
-        I const carrying = lanes::load<I>(work.carrying);
-        I const shining = lanes::load<I>(work.balls) | static_cast<std::int32_t>(arena.basket_mask)
-                        | (lanes::load<I>(work.switch_lit) & static_cast<std::int32_t>(arena.switch_mask));
-
-        Known const known = look_up(arena, x, y, open);
-        mechanics::Directions<F> const look = mechanics::directions(heading);
-        F distances[3];
-        cast_rays(arena, x, y, look, ~open, distances);
-        LightsSeen const lights = see_lights(arena, x, y, look, known, shining, open);
-        auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline)) -> I { return (seen & static_cast<std::int32_t>(kind)) != 0; };
-
-        F sensed[3];
-        for (int r = 0; r < 3; ++r) sensed[r] = mechanics::range_value(distances[r], arena.sensor_range, arena.inverse_range);
-        I const binary[9] = {sees(lights.right, arena.ball_mask), sees(lights.left, arena.ball_mask),
-                             sees(lights.right, arena.basket_mask), sees(lights.left, arena.basket_mask),
-                             sees(lights.right, arena.switch_mask), sees(lights.left, arena.switch_mask),
-                             bumper_right, bumper_left, carrying};
-        for (int r = 0; r < 3; ++r) lanes::store(work.neurons + r * width, sensed[r]);
-        for (int b = 0; b < 9; ++b) lanes::store(work.neurons + (3 + b) * width, ones_where(binary[b]));
-        F effectors[outputs];
-        tick(work, effectors);
-
-        float* const values = work.values + step * 6 * width;
-        I word{};
-        for (int b = 0; b < 9; ++b) word |= binary[b] & (1 << b);
-        for (int c = 0; c < 3; ++c) {
-            lanes::store(values + c * width, sensed[c]);
-            lanes::store(values + (3 + c) * width, effectors[c]);
-            word |= (sensed[c] > 0.5f) & (1 << (9 + c));
-            word |= (effectors[c] > 0.5f) & (1 << (12 + c));
-        }
-        lanes::store(work.words + step * width, __builtin_convertvector(word, Words));
-        lanes::store(work.trail_x + step * width, x);
-        lanes::store(work.trail_y + step * width, y);
-
-        lanes::store(work.x, x);
-        lanes::store(work.y, y);
-        act(work, effectors[2], sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
-        open = lanes::load<I>(work.door_open);
-
-        mechanics::Drive<F> const drive = mechanics::drive(effectors[0], effectors[1], arena.max_speed, arena.inverse_wheel_distance);
-        mechanics::Vector<F> const way = mechanics::arc(drive, heading);
-        F const next_x = x + way.x, next_y = y + way.y;
-        theta = mechanics::wrap(F(theta + drive.turn));
-        heading = math::sincos(theta);
-
-        Contact const contact = touch_walls(arena, lanes::reduce_or(known.touchable), next_x, next_y, heading, open);
-        bumper_right = contact.right;
-        bumper_left = contact.left;
-        x = lanes::select(contact.any, x, next_x);
-        y = lanes::select(contact.any, y, next_y);
-    }
-
-    lanes::store(work.x, x);
-    lanes::store(work.y, y);
-    lanes::store(work.theta, theta);
-    lanes::store(work.bumper_right, bumper_right);
-    lanes::store(work.bumper_left, bumper_left);
+    if (work.vectors == 1) run<1>(work, first, last);
+    else run<lane_vectors>(work, first, last);
 }
 
 } // namespace lore::LORE_ISA_NAMESPACE

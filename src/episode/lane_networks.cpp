@@ -33,9 +33,7 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
     std::vector<std::array<int, most_sources>> entry_of;   // [group][source]
     int offset = 0;
     for (int first = 0; first < targets;) {
-        int const size = first == 0 ? effector_count : std::min(group_size, targets - first);
-        // A remainder of three would look like the outputs' group: two and one.
-        int const count = first > 0 && size == effector_count ? 2 : size;
+        int const count = first == 0 ? effector_count : std::min(group_size, targets - first);
         NeuronGroup group{count, first, static_cast<int>(sources_.size()), 0};
         std::bitset<most_sources> any;
         for (int k = 0; k < count; ++k) any |= feeds[static_cast<std::size_t>(first + k)];

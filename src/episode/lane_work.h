@@ -8,7 +8,10 @@
 /// standard containers (cmake/LoreTargets.cmake, lore_kernel).
 namespace lore {
 
-inline constexpr int lane_slots = 16;   ///< lanes of the widest kernel; narrower ones use the first of them
+/// Vectors that one kernel advances together, phase by phase. A step is one long chain of dependent operations; while
+/// one vector waits for its results the processor works on the other.
+inline constexpr int lane_vectors = 2;
+inline constexpr int lane_slots = 16 * lane_vectors;   ///< lanes of the widest kernel; narrower ones use the first of them
 
 /// An interval [lo, hi] of a face line; `door`: there only while the door is shut.
 struct FaceInterval { float lo, hi; std::int32_t door; };
@@ -58,7 +61,7 @@ struct LaneNetworks {
     std::int32_t group_count;
     std::int32_t const* sources;   ///< per entry: 0..11 input, 12.. hidden
     std::int32_t const* offsets;   ///< per entry: of its weights
-    float const* weights;          ///< rows of `width` floats
+    float const* weights;          ///< rows of one float a lane
     float const* biases;           ///< [target][lane]
     std::int32_t hidden_count;
 };
@@ -71,6 +74,12 @@ struct alignas(64) LaneWork {
     std::int32_t balls[lane_slots];          ///< WorldState::balls
     std::int32_t switch_timer[lane_slots];
 
+    /// Within a step: heading, the word so far, whether something can be taken or pressed, walls that may be touched.
+    float heading_sin[lane_slots], heading_cos[lane_slots];
+    std::int32_t word[lane_slots], in_reach[lane_slots];
+    std::uint32_t touchable[lane_vectors];
+
+    int vectors;                   ///< that hold a running lane, 1 or lane_vectors; rows are as long in any case
     LaneArena arena;
     LaneNetworks networks;
     float* neurons;                ///< [source][lane]: 12 inputs, then hidden neurons

@@ -71,7 +71,7 @@ class LaneRun {
 public:
     LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer)
         : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
-          width_(lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
+          width_(lane_vectors * lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
         values_.resize(rows * continuous_count * columns);
         trail_x_.resize(rows * columns);
@@ -96,6 +96,9 @@ public:
             fill_idle_lanes();
             if (running_ == 0) return;
             if (networks_changed_) lay_networks();
+            auto const idle = [](Lane const& lane) { return lane.episode < 0; };
+            bool const one_is_enough = std::all_of(lanes_.begin() + width_ / lane_vectors, lanes_.end(), idle);
+            work_.vectors = one_is_enough ? 1 : lane_vectors;
             run_chunk();
         }
     }

@@ -10,20 +10,24 @@ inline constexpr int tally_bins     = 10;
 
 /// counts[channel][bin][lane].
 struct LaneTally {
-    std::uint32_t counts[tally_channels][tally_bins][16];
+    std::uint32_t counts[tally_channels][tally_bins][32];
 };
 
-/// Adds a chunk of `steps` rows to the histograms of all lanes. values[step][6][lane].
-using TallyChunk = void(float const* values, int steps, LaneTally&);
-/// out[lane][column] = values[column][lane] for `columns` columns; rows of `out` are `stride` apart.
-using TransposeValues = void(float const* values, int columns, float* out, int stride);
+/// Adds a chunk of `steps` rows to the histograms of all lanes. values[step][6][lane]; `lanes` is a multiple of the
+/// native width, here and below.
+using TallyChunk = void(float const* values, int steps, int lanes, LaneTally&);
+/// out[lane][column] = values[column][lane] for `columns` columns.
+using TransposeValues = void(float const* values, int columns, int lanes, float* out);
 /// The same for words, appended to one place a lane.
-using TransposeWords = void(std::uint16_t const* words, int steps, std::uint16_t* const* out);
+using TransposeWords = void(std::uint16_t const* words, int steps, int lanes, std::uint16_t* const* out);
+/// How many of the words have each of the bits 0..8.
+using CountOnes = void(std::uint16_t const* words, int count, std::uint32_t (&ones)[9]);
 
 struct ChunkKernel {
     TallyChunk* tally;
     TransposeValues* transpose_values;
     TransposeWords* transpose_words;
+    CountOnes* count_ones;
 };
 
 namespace isa_baseline { extern ChunkKernel const chunk_kernel; }

@@ -66,10 +66,13 @@ LORE_INLINE auto touches(Rect const& wall, F const& x, F const& y, float radius_
     return gap_x * gap_x + gap_y * gap_y < radius_squared;
 }
 
+/// Here and below a wall is a Rect, or a struct of the same members that holds another wall in every lane.
+///
 /// True if the closed segment from p to q meets the closed wall: no axis x, y or normal to the segment separates them.
-template <class F>
-LORE_INLINE auto segment_meets(Rect const& wall, F const& px, F const& py, F const& qx, F const& qy) {
-    float const half_width = (wall.x1 - wall.x0) * 0.5f, half_height = (wall.y1 - wall.y0) * 0.5f;
+template <class Wall, class F>
+LORE_INLINE auto segment_meets(Wall const& wall, F const& px, F const& py, F const& qx, F const& qy) {
+    auto const half_width = (wall.x1 - wall.x0) * 0.5f;
+    auto const half_height = (wall.y1 - wall.y0) * 0.5f;
     F const hx = (qx - px) * 0.5f, hy = (qy - py) * 0.5f;
     F const rx = (px + qx) * 0.5f - (wall.x0 + wall.x1) * 0.5f;
     F const ry = (py + qy) * 0.5f - (wall.y0 + wall.y1) * 0.5f;
@@ -87,8 +90,8 @@ struct Bumpers { M right, left; };
 /// The wall and the sector are convex, so if the wall's nearest point lies outside the sector, the wall enters it
 /// across the ray ahead or the ray at +-90 degrees; and if it meets such a ray, it enters the sector just if it
 /// reaches beyond the ray. Precondition: touches().
-template <class F>
-LORE_INLINE auto bumpers(Rect const& wall, F const& x, F const& y, math::SinCos<F> const& heading, float radius) {
+template <class Wall, class F>
+LORE_INLINE auto bumpers(Wall const& wall, F const& x, F const& y, math::SinCos<F> const& heading, float radius) {
     F const& c = heading.cos;
     F const& s = heading.sin;
     F const x0 = wall.x0 - x, x1 = wall.x1 - x, y0 = wall.y0 - y, y1 = wall.y1 - y;

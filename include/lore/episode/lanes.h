@@ -8,8 +8,8 @@
 
 namespace lore {
 
-/// The widest vector of any instruction set, in floats.
-inline constexpr int most_lanes = 16;
+/// Most episodes that run side by side, with any instruction set: two vectors of the widest.
+inline constexpr int most_lanes = 32;
 
 /// What up to `width` episodes, running side by side, did in `steps` consecutive steps. The columns belong to lanes;
 /// which rows of a column belong to an episode is said by LaneObserver::see. Lives in a buffer that is overwritten by
