@@ -110,8 +110,8 @@ bool light_visible(Geometry const& g, int light, float x, float y, bool door_ope
 
 std::uint32_t visible_lights(Geometry const& g, std::uint32_t wanted, float x, float y, bool door_open) {
     Surroundings::Cell const cell = g.surroundings.at(x, y, door_open);
-    std::uint32_t visible = wanted & (cell.clear | cell.mixed);
-    for (std::uint32_t doubtful = wanted & cell.mixed; doubtful != 0; doubtful &= doubtful - 1) {
+    std::uint32_t visible = wanted & (cell.clear_lights() | cell.mixed_lights());
+    for (std::uint32_t doubtful = wanted & cell.mixed_lights(); doubtful != 0; doubtful &= doubtful - 1) {
         int const light = std::countr_zero(doubtful);
         Point const& at = g.lights[static_cast<std::size_t>(light)];
         visit_walls(cell.suspects, walls_standing(g, door_open), [&](int wall) {

@@ -110,10 +110,11 @@ Surroundings survey(float width, float height, std::span<Rect const> walls, int 
         int const row = static_cast<int>(at % count) / table.columns, column = static_cast<int>(at % count) % table.columns;
         Box const box{column * edge - margin, (column + 1) * edge + margin, row * edge - margin, (row + 1) * edge + margin};
         Surroundings::Cell& cell = table.cells[at];
+        if (lights.size() > 16) cell.suspects = 0xffff;   // what hides a light without a bit of its own is not known
         for (std::size_t i = 0; i < lights.size(); ++i) {
             View const seen = view(obstacles, door_open, box, {lights[i].x, lights[i].y});
             if (seen.hidden) continue;
-            (seen.suspects == 0 ? cell.clear : cell.mixed) |= 1u << i;
+            if (i < 16) (seen.suspects == 0 ? cell.clear : cell.mixed) |= static_cast<std::uint16_t>(1u << i);
             cell.suspects |= seen.suspects;
         }
         for (Obstacle const& o : obstacles)

@@ -39,13 +39,15 @@ LaneArenaLayout::LaneArenaLayout(Arena const& arena) {
     view_.walls = g.walls.data();
     view_.wall_count = static_cast<int>(g.walls.size());
     view_.first_door = g.first_door;
-    view_.lights = g.lights.data();
+    for (std::size_t i = 0; i < g.lights.size(); ++i)
+        lights_.push_back({g.lights[i].x, g.lights[i].y, static_cast<std::int32_t>(1u << i)});
+    view_.lights = lights_.data();
     view_.light_count = static_cast<int>(g.lights.size());
     view_.basket_mask = g.basket_mask;
     view_.switch_mask = g.switch_mask;
     view_.ball_mask = (1u << arena.task.ball_positions.size()) - 1u;
-    static_assert(sizeof(Surroundings::Cell) == 4 * sizeof(std::int32_t));
-    view_.cells = reinterpret_cast<std::int32_t const*>(g.surroundings.cells.data());
+    static_assert(sizeof(Surroundings::Cell) == sizeof(std::uint64_t));
+    view_.cells = g.surroundings.cells.data();
     view_.columns = g.surroundings.columns;
     view_.rows = g.surroundings.rows;
     view_.open_offset = static_cast<int>(g.surroundings.open_offset);

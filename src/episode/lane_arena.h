@@ -17,6 +17,7 @@ public:
 private:
     std::vector<FaceLine> vertical_, horizontal_;
     std::vector<FaceInterval> intervals_;
+    std::vector<LaneLight> lights_;
     LaneArena view_{};
 };
 

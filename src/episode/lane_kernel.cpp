@@ -19,30 +19,30 @@ constexpr int inputs = 12, outputs = 3;
 
 LORE_INLINE F ones_where(I const& mask) { return lanes::select(mask, lanes::all_of<F>(1.0f), F{}); }
 
-/// One ray against the faces of one line. `first - y` and `last - y` of its intervals serve all rays.
+/// Three rays against the faces of one line; what mechanics::hit_vertical and hit_horizontal say, arranged for speed:
+/// a comparison costs AVX-512 twice what an addition does, so conditions are joined as numbers that must not be
+/// positive, by max for "and", by min for "or". Distances are kept negative, which saves a sign.
 template <bool along_x>
 LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const& across, F const& along, I const& shut,
                           mechanics::Ray<F> const (&rays)[3], F (&nearest)[3]) {
-    F const up = line.upward - across, down = line.downward - across;
-    F t[3], reach[3];
-    I hit[3];
+    F const up = across - line.upward, down = across - line.downward;
+    F t[3], reach[3], miss[3];   // t and reach negative
+    for (F& least : miss) least = lanes::all_of<F>(__builtin_inff());
     for (int r = 0; r < 3; ++r) {
         F const& direction = along_x ? rays[r].direction.y : rays[r].direction.x;
         F const& reciprocal = along_x ? rays[r].reciprocal.y : rays[r].reciprocal.x;
         t[r] = lanes::select(direction > 0.0f, up, down) * reciprocal;
         reach[r] = t[r] * (along_x ? rays[r].direction.x : rays[r].direction.y);
-        hit[r] = I{};
     }
     for (int i = line.first; i < line.last; ++i) {
         FaceInterval const& interval = arena.intervals[i];
-        F const lo = interval.lo - along, hi = interval.hi - along;
-        if (interval.door) {
-            for (int r = 0; r < 3; ++r) hit[r] |= (lo <= reach[r]) & (reach[r] <= hi) & shut;
-        } else {
-            for (int r = 0; r < 3; ++r) hit[r] |= (lo <= reach[r]) & (reach[r] <= hi);
-        }
+        F lo = interval.lo - along;
+        F const hi = along - interval.hi;
+        // An open door begins at infinity.
+        if (interval.door) lo = lanes::select(shut, lo, lanes::all_of<F>(__builtin_inff()));
+        for (int r = 0; r < 3; ++r) miss[r] = lanes::min(miss[r], lanes::max(F(lo + reach[r]), F(hi - reach[r])));
     }
-    for (int r = 0; r < 3; ++r) nearest[r] = lanes::select(hit[r] & (t[r] >= 0.0f) & (t[r] < nearest[r]), t[r], nearest[r]);
+    for (int r = 0; r < 3; ++r) nearest[r] = lanes::select(lanes::max(t[r], miss[r]) <= 0.0f, lanes::max(t[r], nearest[r]), nearest[r]);
 }
 
 /// Distances along the three rays (right, left, ahead).
@@ -50,9 +50,10 @@ LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mecha
                            F (&nearest)[3]) {
     mechanics::Ray<F> const right = mechanics::ray(look.right);
     mechanics::Ray<F> const rays[3] = {right, {look.left, {right.reciprocal.y, -right.reciprocal.x}}, mechanics::ray(look.ahead)};
-    for (F& distance : nearest) distance = lanes::all_of<F>(__builtin_inff());
+    for (F& distance : nearest) distance = lanes::all_of<F>(-__builtin_inff());
     for (int i = 0; i < arena.vertical_count; ++i) hit_line<false>(arena, arena.vertical[i], x, y, shut, rays, nearest);
     for (int i = 0; i < arena.horizontal_count; ++i) hit_line<true>(arena, arena.horizontal[i], y, x, shut, rays, nearest);
+    for (F& distance : nearest) distance = -distance;
 }
 
 /// What the cells where the robots are know (Surroundings::Cell), per lane.
@@ -63,9 +64,8 @@ LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I cons
     F const column = lanes::min(lanes::max(F(x * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.columns - 1)));
     F const line = lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
     I const cell = lanes::truncate(line) * arena.columns + lanes::truncate(column) + (open & arena.open_offset);
-    I const word = cell * 4;
-    return {lanes::gather(arena.cells, word), lanes::gather(arena.cells + 1, word), lanes::gather(arena.cells + 2, word),
-            lanes::gather(arena.cells + 3, word)};
+    auto const [lights, walls] = lanes::gather_pairs(arena.cells, cell);
+    return {lights & 0xffff, (lights >> 16) | ~0xffff, walls & 0xffff, walls >> 16 & 0xffff};
 }
 
 /// Lights in view of the sensors at each side, and those near enough to be taken or pressed; a bit a light.
@@ -77,16 +77,16 @@ LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y
     I const possible = (known.clear | known.mixed | static_cast<std::int32_t>(arena.always_asked)) & shining;
     for (std::uint32_t asked = lanes::reduce_or(possible); asked != 0; asked &= asked - 1) {
         int const light = __builtin_ctz(asked);
-        std::int32_t const bit = 1 << light;
-        F const vx = arena.lights[light].x - x, vy = arena.lights[light].y - y;
-        right |= mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view) & bit;
-        left |= mechanics::in_view(vx, vy, look.left, arena.cos_squared_half_view) & bit;
-        near |= (vx * vx + vy * vy < arena.reach_squared) & bit;
+        LaneLight const& at = arena.lights[light];
+        F const vx = at.x - x, vy = at.y - y;
+        right = lanes::select(mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view), right | at.bit, right);
+        left = lanes::select(mechanics::in_view(vx, vy, look.left, arena.cos_squared_half_view), left | at.bit, left);
+        near = lanes::select(vx * vx + vy * vy < arena.reach_squared, near | at.bit, near);
     }
     I visible = (known.clear | known.mixed) & shining;
     I const doubtful = (right | left) & known.mixed & shining;
     if (std::uint32_t asked = lanes::reduce_or(doubtful); asked != 0) {
-        WallSet const suspects = lanes::reduce_or(known.suspects & (doubtful != 0));
+        WallSet const suspects = static_cast<WallSet>(lanes::reduce_or(I(known.suspects & (doubtful != 0))));
         for (; asked != 0; asked &= asked - 1) {
             int const light = __builtin_ctz(asked);
             F const light_x = lanes::all_of<F>(arena.lights[light].x), light_y = lanes::all_of<F>(arena.lights[light].y);
@@ -181,7 +181,7 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     lanes::store(work.in_reach + at, sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
     lanes::store(work.trail_x + step * row + at, x);
     lanes::store(work.trail_y + step * row + at, y);
-    work.touchable[at / width] = lanes::reduce_or(known.touchable);
+    work.touchable[at / width] = static_cast<WallSet>(lanes::reduce_or(known.touchable));
 }
 
 LORE_INLINE F activation(F const& bias, F const& sum) { return 1.0f / (1.0f + math::exp(F(bias - sum))); }

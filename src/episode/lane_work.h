@@ -22,6 +22,9 @@ struct FaceLine {
     std::int32_t first, last;   ///< in the intervals
 };
 
+/// A light; its bit is read from memory, where broadcasting costs nothing.
+struct LaneLight { float x, y; std::int32_t bit; };
+
 /// Geometry, robot and task as the kernel reads them.
 struct LaneArena {
     FaceLine const* vertical;
@@ -30,11 +33,11 @@ struct LaneArena {
     FaceInterval const* intervals;
     Rect const* walls;
     std::int32_t wall_count, first_door;
-    Point const* lights;
+    LaneLight const* lights;
     std::int32_t light_count;
     std::uint32_t ball_mask, basket_mask, switch_mask;   ///< of lights
 
-    std::int32_t const* cells;        ///< Surroundings::cells, four words each
+    void const* cells;                ///< Surroundings::cells
     std::int32_t columns, rows, open_offset;
     float cells_per_u;
     /// Lights to look at wherever a lane is. A robot is never nearer to a wall than its radius, so no wall comes between

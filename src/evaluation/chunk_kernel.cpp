@@ -9,43 +9,49 @@ namespace {
 constexpr int width = LORE_LANES;
 using F = Lanes<float, width>;
 using I = Lanes<std::int32_t, width>;
-/// Half as many lanes of twice the size: one native vector.
-constexpr int half = width / 2;
-using HalfInts = Lanes<std::int32_t, half>;
-using Fields = Lanes<std::uint64_t, half>;
+/// A lane counts its ten bins in fields of three bits, and every seven steps moves them, the even and the odd ones apart,
+/// to fields of six bits, which hold 63 steps.
+constexpr int narrow_bits = 3, wide_bits = 6;
+constexpr int narrow_steps = 7, wide_steps = 63;
+constexpr std::int32_t even_fields = 07'07'07'07'07;
+static_assert(tally_bins * narrow_bits <= 31 && tally_bins / 2 * wide_bits <= 31);
 
-/// Ten counters of six bits fit one 64-bit lane, so they must be emptied after 63 steps.
-constexpr int field_bits = 6;
-constexpr int most_steps = (1 << field_bits) - 1;
-static_assert(tally_bins * field_bits <= 64);
+/// 1 in the narrow field of the bin.
+LORE_INLINE I one_in_field(I const& bin) {
+#if defined(__AVX512F__)
+    I const table{1, 1 << 3, 1 << 6, 1 << 9, 1 << 12, 1 << 15, 1 << 18, 1 << 21, 1 << 24, 1 << 27};
+    return (I)_mm512_maskz_permutexvar_epi32(0xffff, (__m512i)bin, (__m512i)table);
+#elif defined(__AVX2__)
+    return (I{} + 1) << (bin + bin + bin);
+#else
+    // Without shifts by lane: the float 2^(3 bin), converted.
+    return lanes::truncate(lanes::cast_bits<F>((bin + bin + bin + 127) << 23));
+#endif
+}
 
 void tally_some(float const* values, int steps, int lanes, int at, LaneTally& tally) {
-    Fields const one = Fields{} + 1;
     for (int channel = 0; channel < tally_channels; ++channel) {
-        Fields low{}, high{};
+        I even{}, odd{};
         float const* column = values + channel * lanes + at;
-        for (int step = 0; step < steps; ++step, column += tally_channels * lanes) {
-            I const bin = lanes::truncate(F(lanes::load<F>(column) * 9.99f));   // entropy_bin
-            I const shift = bin * field_bits;
-            HalfInts const shift_low = lanes::load<HalfInts>(reinterpret_cast<char const*>(&shift));
-            HalfInts const shift_high = lanes::load<HalfInts>(reinterpret_cast<char const*>(&shift) + sizeof(HalfInts));
-            low += one << __builtin_convertvector(shift_low, Fields);
-            high += one << __builtin_convertvector(shift_high, Fields);
+        for (int done = 0; done < steps;) {
+            I narrow{};
+            for (int const until = steps - done < narrow_steps ? steps : done + narrow_steps; done < until; ++done, column += tally_channels * lanes)
+                narrow += one_in_field(lanes::truncate(F(lanes::load<F>(column) * 9.99f)));   // entropy_bin
+            even += narrow & even_fields;
+            odd += narrow >> narrow_bits & even_fields;
         }
         for (int bin = 0; bin < tally_bins; ++bin) {
-            auto* counts = tally.counts[channel][bin] + at;
-            for (int lane = 0; lane < half; ++lane) {
-                counts[lane] += static_cast<std::uint32_t>(low[lane] >> (bin * field_bits) & most_steps);
-                counts[half + lane] += static_cast<std::uint32_t>(high[lane] >> (bin * field_bits) & most_steps);
-            }
+            auto* const counts = tally.counts[channel][bin] + at;
+            I const field = (bin % 2 == 0 ? even : odd) >> (bin / 2 * wide_bits) & wide_steps;
+            lanes::store(counts, lanes::load<I>(counts) + field);
         }
     }
 }
 
 void tally_chunk(float const* values, int steps, int lanes, LaneTally& tally) {
-    for (int done = 0; done < steps; done += most_steps)
+    for (int done = 0; done < steps; done += wide_steps)
         for (int at = 0; at < lanes; at += width)
-            tally_some(values + done * tally_channels * lanes, steps - done < most_steps ? steps - done : most_steps, lanes, at, tally);
+            tally_some(values + done * tally_channels * lanes, steps - done < wide_steps ? steps - done : wide_steps, lanes, at, tally);
 }
 
 void transpose_values(float const* values, int columns, int lanes, float* out) {

@@ -75,4 +75,9 @@ TYPED_TEST(LanesTest, gathers_from_a_table) {
         EXPECT_EQ(values[i], table[(i * 11) % 64]);
         EXPECT_EQ(integers[i], 7 * ((i * 11) % 64));
     }
+    auto const pairs = lanes::gather_pairs(numbers, IntOf<V>(index / 2));
+    for (int i = 0; i < width; ++i) {
+        EXPECT_EQ(pairs.low[i], 14 * ((i * 11) % 64 / 2));
+        EXPECT_EQ(pairs.high[i], 14 * ((i * 11) % 64 / 2) + 7);
+    }
 }

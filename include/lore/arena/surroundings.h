@@ -16,10 +16,14 @@ namespace lore {
 /// a point can say, and hidden otherwise. Everything is proven with a margin that covers rounding, so that table and
 /// exact test together give what the exact test gives alone (tested).
 struct Surroundings {
+    /// Eight bytes, because steps jump about in the table and it should fit the cache.
     struct Cell {
-        std::uint32_t clear = 0, mixed = 0;   ///< a bit a light
+        std::uint16_t clear = 0, mixed = 0;   ///< a bit a light, of the first 16; all further ones count as mixed
         WallSet suspects = 0;                 ///< walls that may hide a mixed light; no other can
         WallSet touchable = 0;                ///< walls that the disc may touch in a step that starts in the cell
+
+        std::uint32_t clear_lights() const { return clear; }
+        std::uint32_t mixed_lights() const { return mixed | ~0xffffu; }
     };
 
     float cells_per_u = 0;            ///< 1 / edge of a cell [1/u]
@@ -31,7 +35,7 @@ struct Surroundings {
     Cell at(float x, float y, bool door_open) const {
         float const column = x * cells_per_u, row = y * cells_per_u;
         if (!(column >= 0.0f && row >= 0.0f && column < static_cast<float>(columns) && row < static_cast<float>(rows)))
-            return {0, ~0u, ~0u, ~0u};
+            return {0, 0xffff, 0xffff, 0xffff};
         std::size_t const cell = static_cast<std::size_t>(static_cast<int>(row)) * static_cast<std::size_t>(columns)
                                + static_cast<std::size_t>(static_cast<int>(column));
         return cells[(door_open ? open_offset : 0) + cell];

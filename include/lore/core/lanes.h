@@ -220,5 +220,41 @@ LORE_INLINE auto gather(T const* table, I const& index) {
     }
 }
 
+/// The two halves of 64-bit words, lane by lane.
+template <class I>
+struct WordPair { I low, high; };
+
+/// Words number `index` of a table of 64-bit words (two 32-bit halves each, low half first).
+template <class I>
+LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
+    constexpr int width = sizeof(I) / sizeof(std::int32_t);
+#if defined(__AVX512F__)
+    if constexpr (width == 16) {
+        __m512i const a = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, (__m256i)load<Lanes<std::int32_t, 8>>(reinterpret_cast<char const*>(&index)), table, 8);
+        __m512i const b = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, (__m256i)load<Lanes<std::int32_t, 8>>(reinterpret_cast<char const*>(&index) + 32), table, 8);
+        I const even{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
+        return {(I)_mm512_permutex2var_epi32(a, (__m512i)even, b), (I)_mm512_permutex2var_epi32(a, (__m512i)(even + 1), b)};
+    } else
+#endif
+#if defined(__AVX2__)
+    if constexpr (width == 8) {
+        auto const* const words = static_cast<long long const*>(table);
+        __m256i const a = _mm256_i32gather_epi64(words, _mm256_castsi256_si128((__m256i)index), 8);
+        __m256i const b = _mm256_i32gather_epi64(words, _mm256_extracti128_si256((__m256i)index, 1), 8);
+        __m256 const low = _mm256_shuffle_ps((__m256)a, (__m256)b, 0x88), high = _mm256_shuffle_ps((__m256)a, (__m256)b, 0xdd);
+        return {(I)_mm256_permute4x64_epi64((__m256i)low, 0xd8), (I)_mm256_permute4x64_epi64((__m256i)high, 0xd8)};
+    } else
+#endif
+    {
+        WordPair<I> pair{};
+        for (int lane = 0; lane < width; ++lane) {
+            auto const word = load<Lanes<std::int32_t, 2>>(static_cast<char const*>(table) + 8 * static_cast<std::int64_t>(index[lane]));
+            pair.low[lane] = word[0];
+            pair.high[lane] = word[1];
+        }
+        return pair;
+    }
+}
+
 } // namespace lanes
 } // namespace lore
