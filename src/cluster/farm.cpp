@@ -5,8 +5,8 @@
 #include "shared_rows.h"
 
 #include <lore/archive/messages.h>
-#include <lore/core/isa.h>
 #include <lore/core/stopwatch.h>
+#include <lore/episode/lanes.h>
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ class Farm::OwnFeed : public EvaluationFeed {
 public:
     OwnFeed(State& state, std::span<Genome const* const> genomes)
         : results(genomes.size()), state_(state), genomes_(genomes), order_(genomes.size()), ranks_(state.communicator.size()),
-          lanes_(lanes_of(active_isa())), held_(static_cast<std::size_t>(ranks_), 0) {
+          lanes_(lane_count()), held_(static_cast<std::size_t>(ranks_), 0) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
             return larger(*genomes_[static_cast<std::size_t>(a)], *genomes_[static_cast<std::size_t>(b)]);

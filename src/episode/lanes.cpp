@@ -71,7 +71,7 @@ class LaneRun {
 public:
     LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer)
         : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
-          width_(lane_vectors * lanes_of(active_isa())), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
+          width_(lane_count()), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
         values_.resize(rows * continuous_count * columns);
         trail_x_.resize(rows * columns);
@@ -258,6 +258,8 @@ private:
 };
 
 } // namespace
+
+int lane_count() { return lane_vectors * lanes_of(active_isa()); }
 
 void run_in_lanes(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer) {
     assert(chunk_steps >= 1 && config.steps >= 1);

@@ -145,7 +145,7 @@ TEST(VisitWalls, reaches_every_wall_of_the_set_in_order) {
     };
     EXPECT_EQ(visited(0, 40), (std::vector<int>{}));
     EXPECT_EQ(visited(wall_bit(0) | wall_bit(7), 12), (std::vector<int>{0, 7}));
-    EXPECT_EQ(visited(~0u, 3), (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(visited(0xffff, 3), (std::vector<int>{0, 1, 2}));
     EXPECT_EQ(visited(wall_bit(3) | wall_bit(17), 19), (std::vector<int>{3, 15, 16, 17, 18}));
 }
 

@@ -10,6 +10,8 @@ namespace lore {
 
 /// Most episodes that run side by side, with any instruction set: two vectors of the widest.
 inline constexpr int most_lanes = 32;
+/// Episodes that run side by side with the active instruction set: 8, 16 or 32.
+int lane_count();
 
 /// What up to `width` episodes, running side by side, did in `steps` consecutive steps. The columns belong to lanes;
 /// which rows of a column belong to an episode is said by LaneObserver::see. Lives in a buffer that is overwritten by
