@@ -2,6 +2,7 @@
 
 #include "birth_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -10,6 +11,13 @@ namespace lore {
 namespace {
 
 constexpr std::size_t least_bytes_a_member = 48;
+
+/// What measuring distances relies on.
+bool is_possible(Descriptors const& descriptors) {
+    return std::all_of(descriptors.path.begin(), descriptors.path.end(), [](Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }) &&
+           std::all_of(descriptors.balls.begin(), descriptors.balls.end(), [](Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }) &&
+           std::all_of(descriptors.entropies.begin(), descriptors.entropies.end(), [](double entropy) { return std::isfinite(entropy); });
+}
 
 /// All but the distances among the members: evolution measures them anew, which costs less than keeping them here.
 void put_population(OutArchive& archive, Population const& population) {
@@ -37,6 +45,7 @@ Population get_population(InArchive& archive) {
     population.generation = generation;
     population.distance_kind = static_cast<DistanceKind>(kind);
     population.members.resize(get_count(archive, least_bytes_a_member));
+    if (population.members.empty()) archive.fail("nobody is in the population");
     for (Individual& member : population.members) {
         std::uint32_t place = 0;
         std::int32_t objectives = 0;
@@ -48,6 +57,9 @@ Population get_population(InArchive& archive) {
             if (!std::isfinite(value)) archive.fail("an objective is not finite");
         member.birth = births[place];
         member.descriptors = std::move(descriptors);
+        // Distances compare ball by ball, and sums of them decide who survives.
+        if (member.descriptors->balls.size() != population.members.front().descriptors->balls.size()) archive.fail("members saw different numbers of balls");
+        if (!is_possible(*member.descriptors)) archive.fail("a descriptor that no evaluation gives");
         member.objectives.count = objectives;
     }
     return population;
@@ -96,12 +108,18 @@ FoundCheckpoint read_checkpoint(std::string const& path, std::string const& olde
     try {
         return {unpack_checkpoint(read_container(path, FileKind::checkpoint), path), ""};
     } catch (Error const& newer_fails) {
+        FoundCheckpoint found;
         try {
-            return {unpack_checkpoint(read_container(older, FileKind::checkpoint), older),
-                    fmt::format("{} Going on from {}, the one before.", newer_fails.what(), older)};
+            found.checkpoint = unpack_checkpoint(read_container(older, FileKind::checkpoint), older);
         } catch (Error const&) {
+            throw newer_fails;
         }
-        throw;
+        // The whole one takes the damaged one's place, or the next checkpoint would keep the damaged one and drop it.
+        std::error_code failed;
+        std::filesystem::rename(older, path, failed);
+        if (failed) throw Error(fmt::format("cannot go on from {}", older), failed.message(), "Make its directory writable.");
+        found.warning = fmt::format("{} Going on from the one before.", newer_fails.what());
+        return found;
     }
 }
 

@@ -3,6 +3,7 @@
 #include <lore/archive/container.h>
 #include <lore/archive/knowledge_export.h>
 #include <lore/core/error.h>
+#include <lore/core/whole_number.h>
 
 #include <algorithm>
 #include <bit>
@@ -65,9 +66,9 @@ Provenance provenance_of(std::string_view text) {
     json.at("sources").get_to(provenance.sources);
     json.at("derivation").get_to(provenance.derivation);
     json.at("task").get_to(provenance.task);
-    json.at("individuals").get_to(provenance.individuals);
-    json.at("windows").get_to(provenance.windows);
-    json.at("best_balls").get_to(provenance.best_balls);
+    provenance.individuals = whole_number<std::uint64_t>(json.at("individuals"));
+    provenance.windows = whole_number<std::uint64_t>(json.at("windows"));
+    provenance.best_balls = whole_number<int>(json.at("best_balls"));
     return provenance;
 }
 
@@ -173,7 +174,7 @@ KnowledgeBase read_knowledge_base(std::string const& path) {
     try {
         auto const text = view<char>(mapped.bytes, layout.provenance, preamble.provenance_length);
         parts.provenance = provenance_of({text.data(), text.size()});
-    } catch (nlohmann::json::exception const&) {
+    } catch (std::exception const&) {
         refuse(path, "its provenance cannot be understood");
     }
     return KnowledgeBase{std::move(parts)};

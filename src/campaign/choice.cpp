@@ -2,6 +2,7 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/whole_number.h>
 
 #include <algorithm>
 #include <cassert>
@@ -100,11 +101,13 @@ Choice read_choice(std::string const& path) {
         auto const document = nlohmann::json::parse(file);
         Choice choice;
         for (auto const& entry : document.at("chosen"))
-            choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), entry.at("run"), entry.at("seed"), entry.at("balls")});
-        for (auto const& run : document.at("considered")) choice.considered.push_back({run.at("run"), run.at("seed"), run.at("balls")});
-        choice.without = document.at("without").get<std::vector<int>>();
+            choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), whole_number<int>(entry.at("run")),
+                                     whole_number<std::uint64_t>(entry.at("seed")), whole_number<int>(entry.at("balls"))});
+        for (auto const& run : document.at("considered"))
+            choice.considered.push_back({whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")), whole_number<int>(run.at("balls"))});
+        for (auto const& run : document.at("without")) choice.without.push_back(whole_number<int>(run));
         return choice;
-    } catch (nlohmann::json::exception const& error) {
+    } catch (std::exception const& error) {
         throw Error(fmt::format("cannot read {}", path), error.what(), "Remove it to choose the source runs again.");
     }
 }

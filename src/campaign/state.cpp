@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/campaign/choice.h>
 #include <lore/core/error.h>
+#include <lore/core/whole_number.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
@@ -154,8 +155,8 @@ std::optional<FailureRecord> read_failure(CampaignDirectory const& directory, St
     try {
         std::ifstream file{path};
         auto const document = nlohmann::json::parse(file);
-        return FailureRecord{document.at("attempts"), document.at("how"), document.at("log_tail")};
-    } catch (nlohmann::json::exception const& error) {
+        return FailureRecord{whole_number<int>(document.at("attempts")), document.at("how"), document.at("log_tail")};
+    } catch (std::exception const& error) {
         throw Error(fmt::format("cannot read {}", path), error.what(), "Remove it: the step is then tried again.");
     }
 }

@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/checksum.h>
 #include <lore/core/error.h>
+#include <lore/core/whole_number.h>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ Json to_json(std::vector<FileRecord> const& files) {
 
 std::vector<FileRecord> files_from(Json const& list) {
     std::vector<FileRecord> files;
-    for (Json const& file : list) files.push_back({file.at("role"), file.at("path"), file.at("bytes"), file.at("xxh3_64")});
+    for (Json const& file : list) files.push_back({file.at("role"), file.at("path"), whole_number<std::uint64_t>(file.at("bytes")), file.at("xxh3_64")});
     return files;
 }
 
@@ -48,9 +49,9 @@ RunSession session_from(Json const& json) {
     session.started = json.at("started");
     session.stopped = json.at("stopped");
     session.reason = json.at("reason");
-    session.first_generation = json.at("first_generation");
-    session.last_generation = json.at("last_generation");
-    session.ranks = json.at("ranks");
+    session.first_generation = whole_number<int>(json.at("first_generation"));
+    session.last_generation = whole_number<int>(json.at("last_generation"));
+    session.ranks = whole_number<int>(json.at("ranks"));
     session.hosts = json.at("hosts").get<std::vector<std::string>>();
     session.isa = json.at("isa");
     session.seconds = json.at("seconds");
@@ -93,7 +94,7 @@ Manifest read_manifest(std::string const& path) {
     auto const bytes = read_file(path);
     try {
         Json const json = Json::parse(reinterpret_cast<char const*>(bytes.data()), reinterpret_cast<char const*>(bytes.data()) + bytes.size());
-        if (int const format = json.at("format"); format > manifest_format)
+        if (int const format = whole_number<int>(json.at("format")); format > manifest_format)
             throw Error(fmt::format("cannot read {}", path),
                         fmt::format("written by a newer Lore: format {}, this one reads {}", format, manifest_format), "Update Lore.");
         Manifest manifest;
@@ -103,11 +104,11 @@ Manifest read_manifest(std::string const& path) {
         manifest.status = static_cast<RunStatus>(known - std::begin(status_names));
         manifest.name = json.at("name");
         manifest.task = json.at("task");
-        manifest.seed = json.at("seed");
-        manifest.generation = json.at("generation");
-        manifest.generations = json.at("generations");
+        manifest.seed = whole_number<std::uint64_t>(json.at("seed"));
+        manifest.generation = whole_number<int>(json.at("generation"));
+        manifest.generations = whole_number<int>(json.at("generations"));
         manifest.signature = json.at("signature");
-        manifest.best_balls = json.at("best_balls");
+        manifest.best_balls = whole_number<int>(json.at("best_balls"));
         manifest.best = json.at("best");
         Json const& build = json.at("build");
         manifest.build = {build.at("version"), build.at("commit"), build.at("compiler"), build.at("build_type"), {}};

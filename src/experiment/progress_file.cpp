@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -32,7 +33,7 @@ public:
     bool take(Number& number) {
         std::string_view const field = next();
         auto const [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-        return error == std::errc{} && end == field.data() + field.size();
+        return error == std::errc{} && end == field.data() + field.size() && std::isfinite(static_cast<double>(number));   // "nan" is a number to it
     }
     bool take(DistanceKind& kind) {
         try {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <limits>
 
 using namespace lore;
 
@@ -57,10 +58,25 @@ TEST(Checkpoint, keeps_the_last_two_and_falls_back_to_the_older_with_a_warning) 
     EXPECT_EQ(found.checkpoint.state.population.generation, 2);
     EXPECT_THAT(found.warning, ::testing::HasSubstr("checksum mismatch"));
 
+    EXPECT_EQ(read_checkpoint(path, older).warning, "") << "the damaged one is gone";
+
+    write_checkpoint(path, older, checkpoint_at(3));
     std::filesystem::remove(path);
     EXPECT_EQ(read_checkpoint(path, older).checkpoint.state.population.generation, 2);
-    std::filesystem::remove(older);
+    std::filesystem::remove(path);
     EXPECT_THROW(read_checkpoint(path, older), Error);
+}
+
+TEST(Checkpoint, never_keeps_a_damaged_one_in_place_of_the_whole_one) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    for (int generation : {1, 2}) write_checkpoint(path, older, checkpoint_at(generation));
+    auto bytes = read_file(path);
+    bytes.pop_back();
+    write_file_atomically(path, std::span<std::byte const>{bytes});
+    write_checkpoint(path, older, read_checkpoint(path, older).checkpoint);
+    for (std::string const& one : {path, older})
+        EXPECT_EQ(unpack_checkpoint(read_container(one, FileKind::checkpoint), one).state.population.generation, 1);
 }
 
 TEST(Checkpoint, refuses_a_payload_cut_at_any_length) {
@@ -76,4 +92,23 @@ TEST(Checkpoint, survives_a_changed_byte_anywhere) {
         try { unpack_checkpoint(payload, "x"); } catch (Error const&) {}
         payload[at] ^= std::byte{0xff};
     }
+}
+
+TEST(Checkpoint, is_refused_with_descriptors_that_no_evaluation_gives) {
+    auto const forged = [](auto const& forge) {
+        Checkpoint checkpoint = checkpoint_at(1);
+        Individual& victim = checkpoint.state.population.members[3];
+        auto descriptors = std::make_shared<Descriptors>(*victim.descriptors);
+        forge(*descriptors);
+        victim.descriptors = std::move(descriptors);
+        return pack_checkpoint(checkpoint);
+    };
+    EXPECT_NO_THROW(unpack_checkpoint(forged([](Descriptors&) {}), "x"));
+    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.balls.pop_back(); }), "x"), Error);
+    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.balls[0].x = std::numeric_limits<float>::quiet_NaN(); }), "x"), Error);
+    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.path[0] = {200, 3}; }), "x"), Error);
+    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.entropies[2] = std::numeric_limits<double>::infinity(); }), "x"), Error);
+    Checkpoint nobody = checkpoint_at(1);
+    nobody.state.population.members.clear();
+    EXPECT_THROW(unpack_checkpoint(pack_checkpoint(nobody), "x"), Error);
 }

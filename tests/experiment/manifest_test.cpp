@@ -70,6 +70,18 @@ TEST(Manifest, is_refused_when_cut_anywhere_or_of_a_newer_format) {
     }
 }
 
+TEST(Manifest, is_refused_where_a_whole_number_is_none_or_too_large) {
+    Scratch const scratch;
+    write_manifest(scratch.file("m.json"), example());
+    std::string const whole = text(scratch.file("m.json"));
+    for (char const* const number : {"1e300", "12.5", "5000000000", "-5000000000", "true", "null"}) {
+        std::string changed = whole;
+        changed.replace(changed.find("\"generation\": 12"), 16, std::string{"\"generation\": "} + number);
+        write_file_atomically(scratch.file("changed.json"), std::string_view{changed});
+        EXPECT_THROW(read_manifest(scratch.file("changed.json")), Error) << number;
+    }
+}
+
 TEST(Version, names_program_compiler_instruction_set_and_libraries) {
     std::string const version = version_text("lore-evolve");
     for (char const* const word : {"lore-evolve 1.", "commit", "compiled by", "instruction set", "Open MPI 4", "Boost 1.", "zstd 1."})

@@ -72,7 +72,8 @@ TEST(ProgressFile, that_is_damaged_is_refused) {
     Scratch const scratch;
     std::string const header = progress_header() + "\n";
     for (std::string const& bad : {std::string{}, std::string{"a,b\n"}, header + "x\n", header + text(row_at(1)) + "\n", header + text(row_at(0)) + ",1\n",
-                                   header + "0,0,0,cosine,0,0,0,0,0,0,0,0,0,0\n"}) {
+                                   header + "0,0,0,cosine,0,0,0,0,0,0,0,0,0,0\n",
+                                   header + "0,0,nan,adhoc,0,0,0,0,0,0,0,0,0,0\n"}) {
         write_file_atomically(scratch.file("p.csv"), std::string_view{bad});
         EXPECT_THROW(read_progress(scratch.file("p.csv")), Error) << bad;
     }

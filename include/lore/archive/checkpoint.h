@@ -34,7 +34,8 @@ struct FoundCheckpoint {
     Checkpoint checkpoint;
     std::string warning;   ///< why the newer one was not taken, or ""
 };
-/// The newer of the two that is whole. Throws the newer one's Error if neither is.
+/// The newer of the two that is whole, which is then the one at `path`: a damaged newer one is replaced by the older, so
+/// that the next checkpoint does not push the only whole one out. Throws the newer one's Error if neither is.
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older);
 
 } // namespace lore

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+namespace lore {
+
+/// The whole number that a value of nlohmann::json holds. Throws std::out_of_range if it is none or beyond the type's
+/// range: json itself would convert 1e300 to an int, which C++ does not define, and cut 2^40 to one silently.
+template <class Integer, class Json>
+Integer whole_number(Json const& json) {
+    if (json.is_number_unsigned()) {
+        if (auto const value = json.template get<std::uint64_t>(); std::in_range<Integer>(value)) return static_cast<Integer>(value);
+    } else if (json.is_number_integer()) {
+        if (auto const value = json.template get<std::int64_t>(); std::in_range<Integer>(value)) return static_cast<Integer>(value);
+    }
+    throw std::out_of_range("'" + json.dump() + "' is not a whole number of the range expected");
+}
+
+} // namespace lore
