@@ -38,7 +38,7 @@ std::vector<double> DistanceMatrix::means() const {
 
 void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last,
                   DistanceMatrix& matrix) {
-    assert(0 <= first && last <= matrix.size() && matrix.size() == static_cast<int>(pool.size()));
+    assert(0 <= first && last <= static_cast<int>(pool.size()) && last <= matrix.size());
     switch (kind) {
     case DistanceKind::adhoc: return measure_adhoc_rows(pool, first, last, matrix);
     case DistanceKind::hamming: return measure_hamming_rows(pool, first, last, matrix);

@@ -26,6 +26,7 @@ namespace {
 
 constexpr int width = LORE_LANES * static_cast<int>(sizeof(float));
 using Bytes = Lanes<std::int8_t, width>;
+using Counts = Lanes<std::uint8_t, width>;
 
 LORE_INLINE Bytes load(std::int8_t const* from) { return lanes::load<Bytes>(from); }
 LORE_INLINE Bytes least(Bytes const& a, Bytes const& b) { return a < b ? a : b; }
@@ -44,20 +45,20 @@ public:
         for (int lane = 0; lane < width; ++lane) costs_[lane] = 0;
     }
     LORE_INLINE void add(Bytes const& differences) {
-        sum_ += differences - static_cast<std::int8_t>(origin);
+        sum_ += (Counts)(differences - static_cast<std::int8_t>(origin));
         if (++held_ == 11) close();
     }
     LORE_INLINE void close() {
         std::uint8_t sums[width];
         lanes::store(sums, sum_);
         for (int lane = 0; lane < width; ++lane) costs_[lane] += sums[lane];
-        sum_ = Bytes{};
+        sum_ = Counts{};
         held_ = 0;
     }
 
 private:
     std::int32_t* costs_;
-    Bytes sum_{};
+    Counts sum_{};
     int held_ = 0;
 };
 

@@ -165,8 +165,10 @@ LORE_INLINE std::uint32_t mask_bits(M const& mask) {
 #if defined(__SSE2__)
         if constexpr (width == 4) return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask));
 #endif
+        std::int32_t held[width];
+        __builtin_memcpy(held, &mask, sizeof held);
         std::uint32_t bits = 0;
-        for (int lane = 0; lane < width; ++lane) bits |= (mask[lane] ? 1u : 0u) << lane;
+        for (int lane = 0; lane < width; ++lane) bits |= (held[lane] != 0 ? 1u : 0u) << lane;
         return bits;
     }
 }
@@ -230,8 +232,11 @@ LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
     constexpr int width = sizeof(I) / sizeof(std::int32_t);
 #if defined(__AVX512F__)
     if constexpr (width == 16) {
-        __m512i const a = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, (__m256i)load<Lanes<std::int32_t, 8>>(reinterpret_cast<char const*>(&index)), table, 8);
-        __m512i const b = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, (__m256i)load<Lanes<std::int32_t, 8>>(reinterpret_cast<char const*>(&index) + 32), table, 8);
+        using Half = Lanes<std::int32_t, 8>;
+        char const* const from = reinterpret_cast<char const*>(&index);
+        __m256i const first = (__m256i)load<Half>(from), second = (__m256i)load<Half>(from + sizeof(Half));
+        __m512i const a = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, first, table, 8);
+        __m512i const b = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, second, table, 8);
         I const even{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
         return {(I)_mm512_permutex2var_epi32(a, (__m512i)even, b), (I)_mm512_permutex2var_epi32(a, (__m512i)(even + 1), b)};
     } else
