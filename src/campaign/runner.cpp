@@ -239,8 +239,10 @@ private:
             auto const end = poll_child(task.pid);
             if (!end) continue;
             task.pid = 0;
-            task.lock.reset();
+            // Judged under our own lock: once given up it may seem taken for a moment, by a child that was just forked
+            // with a copy of it.
             judge(task, *end);
+            task.lock.reset();
         }
     }
 
@@ -257,7 +259,7 @@ private:
         ++task.attempts;
         auto const log = last_lines(directory_.log(task.step.name), 5);
         std::string how = text(end);
-        if (end.signal == 0 && end.exit_code == 0) how = state_of(plan_, directory_, task.step).reason;
+        if (end.signal == 0 && end.exit_code == 0) how = state_of(plan_, directory_, task.step, Locks::ignored).reason;
         if (how.empty()) how = "it ended without its result";
         if (task.attempts < most_attempts) {
             board_.announce(fmt::format("{} failed ({}), trying once more", task.step.name, how));

@@ -58,8 +58,8 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
         return state;
     };
     std::string const where = fmt::format("at generation {} of {}", state.generation, state.generations);
-    if (taken) return say(StepStatus::running, where);
 
+    // What is done is done, whoever holds the lock: a child that was just forked seems to, until it becomes its program.
     std::optional<Manifest> manifest;
     if (fs::exists(in(run, run_file::manifest))) {
         try {
@@ -76,6 +76,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
         if (!fs::exists(in(run, run_file::lineage))) return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
         return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
     }
+    if (taken) return say(StepStatus::running, where);
     if (auto const failure = read_failure(directory, step))
         return say(StepStatus::failed, fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts,
                                                    failure->log_tail.empty() ? "" : ": ",
@@ -125,15 +126,15 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
     }
     StepState state;
     bool const there = step.kind == StepKind::choose ? choice && choice->covers(plan) : fs::exists(directory.knowledge(step.subject));
-    if (taken) {
-        state.status = StepStatus::running;
-    } else if (there) {
+    if (there) {
         state.status = StepStatus::done;
         if (step.kind == StepKind::choose) {
             std::vector<std::string> words;
             for (ChosenRun const& chosen : choice->chosen) words.push_back(fmt::format("{} from run {} ({} balls)", chosen.knowledge, chosen.run, chosen.balls));
             state.reason = fmt::format("{}", fmt::join(words, ", "));
         }
+    } else if (taken) {
+        state.status = StepStatus::running;
     } else if (auto const failure = read_failure(directory, step)) {
         state.status = StepStatus::failed;
         state.reason = fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts, failure->log_tail.empty() ? "" : ": ",
