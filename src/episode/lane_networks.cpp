@@ -50,8 +50,8 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
         first += count;
     }
 
-    weights_.assign(static_cast<std::size_t>(offset), 0.0f);
-    biases_.assign(static_cast<std::size_t>(targets * width), 0.0f);
+    weights_.assign_zeros(static_cast<std::size_t>(offset));
+    biases_.assign_zeros(static_cast<std::size_t>(targets * width));
     for (std::size_t lane = 0; lane < networks.size(); ++lane) {
         Network const* network = networks[lane];
         if (network == nullptr) continue;
@@ -67,7 +67,8 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
 }
 
 LaneNetworks LaneNetworkLayout::view() const {
-    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(), biases_.data(), hidden_count_};
+    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(), biases_.data(),
+            hidden_count_, static_cast<int>(weights_.size())};
 }
 
 } // namespace lore

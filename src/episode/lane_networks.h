@@ -1,5 +1,6 @@
 #pragma once
 
+#include "aligned_floats.h"
 #include "lane_work.h"
 
 #include <lore/network/network.h>
@@ -19,7 +20,7 @@ public:
 private:
     std::vector<NeuronGroup> groups_;
     std::vector<std::int32_t> sources_, offsets_;
-    std::vector<float> weights_, biases_;
+    AlignedFloats weights_, biases_;
     int hidden_count_ = 0;
 };
 

@@ -67,7 +67,12 @@ struct LaneNetworks {
     float const* weights;          ///< rows of one float a lane
     float const* biases;           ///< [target][lane]
     std::int32_t hidden_count;
+    std::int32_t weight_count;
 };
+
+/// With more weights than this the vectors take turns, chunk by chunk: what both read in a step together no longer fits
+/// the innermost cache (24 kB of 32 or 48).
+inline constexpr std::int32_t most_weights_together = 6144;
 
 /// All that changes while the lanes run, and where they record. Arrays are [lane].
 struct alignas(64) LaneWork {

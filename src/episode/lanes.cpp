@@ -2,6 +2,7 @@
 
 #include <lore/core/isa.h>
 
+#include "aligned_floats.h"
 #include "lane_arena.h"
 #include "lane_networks.h"
 #include "stillness.h"
@@ -28,20 +29,6 @@ RunSteps kernel_for(Isa isa) {
     (void)isa;
     return isa_baseline::run_steps;
 }
-
-/// Storage that starts at a cache line, as whole vectors want it.
-class AlignedFloats {
-public:
-    void resize(std::size_t count) {
-        memory_.assign(count + 16, 0.0f);
-        offset_ = (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
-    }
-    float* data() { return memory_.data() + offset_; }
-
-private:
-    std::vector<float> memory_;
-    std::size_t offset_ = 0;
-};
 
 /// Networks that are all there, handed out by size.
 class AllAtOnce : public EpisodeSource {
@@ -73,12 +60,12 @@ public:
         : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
           width_(lane_count()), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
-        values_.resize(rows * continuous_count * columns);
-        trail_x_.resize(rows * columns);
-        trail_y_.resize(rows * columns);
+        values_.assign_zeros(rows * continuous_count * columns);
+        trail_x_.assign_zeros(rows * columns);
+        trail_y_.assign_zeros(rows * columns);
         words_.resize(rows * columns + 32);
-        neurons_.resize((sensor_count + most_hidden) * columns);
-        next_hidden_.resize(most_hidden * columns);
+        neurons_.assign_zeros((sensor_count + most_hidden) * columns);
+        next_hidden_.assign_zeros(most_hidden * columns);
         work_.arena = arena_layout_.view();
         work_.neurons = neurons_.data();
         work_.next_hidden = next_hidden_.data();
