@@ -42,17 +42,20 @@ LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const&
         if (interval.door) lo = lanes::select(shut, lo, lanes::all_of<F>(__builtin_inff()));
         for (int r = 0; r < 3; ++r) miss[r] = lanes::min(miss[r], lanes::max(F(lo + reach[r]), F(hi - reach[r])));
     }
-    for (int r = 0; r < 3; ++r) nearest[r] = lanes::select(lanes::max(t[r], miss[r]) <= 0.0f, lanes::max(t[r], nearest[r]), nearest[r]);
+    for (int r = 0; r < 3; ++r)
+        nearest[r] = lanes::select(lanes::max(t[r], miss[r]) <= 0.0f, lanes::max(t[r], nearest[r]), nearest[r]);
 }
 
 /// Distances along the three rays (right, left, ahead).
-LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mechanics::Directions<F> const& look, I const& shut,
-                           F (&nearest)[3]) {
+LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mechanics::Directions<F> const& look,
+                           I const& shut, F (&nearest)[3]) {
     mechanics::Ray<F> const right = mechanics::ray(look.right);
-    mechanics::Ray<F> const rays[3] = {right, {look.left, {right.reciprocal.y, -right.reciprocal.x}}, mechanics::ray(look.ahead)};
+    mechanics::Ray<F> const rays[3] = {
+        right, {look.left, {right.reciprocal.y, -right.reciprocal.x}}, mechanics::ray(look.ahead)};
     for (F& distance : nearest) distance = lanes::all_of<F>(-__builtin_inff());
     for (int i = 0; i < arena.vertical_count; ++i) hit_line<false>(arena, arena.vertical[i], x, y, shut, rays, nearest);
-    for (int i = 0; i < arena.horizontal_count; ++i) hit_line<true>(arena, arena.horizontal[i], y, x, shut, rays, nearest);
+    for (int i = 0; i < arena.horizontal_count; ++i)
+        hit_line<true>(arena, arena.horizontal[i], y, x, shut, rays, nearest);
     for (F& distance : nearest) distance = -distance;
 }
 
@@ -61,8 +64,10 @@ struct Known { I clear, mixed, suspects, touchable; };
 
 LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I const& open) {
     // Robots cannot leave the closed arena; the bounds only keep every read inside the table.
-    F const column = lanes::min(lanes::max(F(x * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.columns - 1)));
-    F const line = lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
+    F const column =
+        lanes::min(lanes::max(F(x * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.columns - 1)));
+    F const line =
+        lanes::min(lanes::max(F(y * arena.cells_per_u), F{}), lanes::all_of<F>(static_cast<float>(arena.rows - 1)));
     I const cell = lanes::truncate(line) * arena.columns + lanes::truncate(column) + (open & arena.open_offset);
     auto const [lights, walls] = lanes::gather_pairs(arena.cells, cell);
     return {lights & 0xffff, (lights >> 16) | ~0xffff, walls & 0xffff, walls >> 16 & 0xffff};
@@ -79,7 +84,8 @@ LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y
         int const light = __builtin_ctz(asked);
         LaneLight const& at = arena.lights[light];
         F const vx = at.x - x, vy = at.y - y;
-        right = lanes::select(mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view), right | at.bit, right);
+        right =
+            lanes::select(mechanics::in_view(vx, vy, look.right, arena.cos_squared_half_view), right | at.bit, right);
         left = lanes::select(mechanics::in_view(vx, vy, look.left, arena.cos_squared_half_view), left | at.bit, left);
         near = lanes::select(vx * vx + vy * vy < arena.reach_squared, near | at.bit, near);
     }
@@ -89,7 +95,8 @@ LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y
         WallSet const suspects = static_cast<WallSet>(lanes::reduce_or(I(known.suspects & (doubtful != 0))));
         for (; asked != 0; asked &= asked - 1) {
             int const light = __builtin_ctz(asked);
-            F const light_x = lanes::all_of<F>(arena.lights[light].x), light_y = lanes::all_of<F>(arena.lights[light].y);
+            F const light_x = lanes::all_of<F>(arena.lights[light].x),
+                    light_y = lanes::all_of<F>(arena.lights[light].y);
             visit_walls(suspects, arena.wall_count, [&](int wall) __attribute__((always_inline)) {
                 I crossed = mechanics::segment_meets(arena.walls[wall], x, y, light_x, light_y);
                 if (wall >= arena.first_door) crossed &= ~open;
@@ -115,7 +122,8 @@ struct Walls {
 /// What the attempted move meets.
 struct Contact { I any, right, left; };
 
-LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F const& x, F const& y, math::SinCos<F> const& heading, I const& open) {
+LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F const& x, F const& y,
+                                math::SinCos<F> const& heading, I const& open) {
     Contact contact{I{}, I{}, I{}};
     auto const press = [&](I const& touched, auto const& walls) __attribute__((always_inline)) {
         auto const pressed = mechanics::bumpers(walls, x, y, heading, arena.radius);
@@ -157,15 +165,19 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     I const shining = lanes::load<I>(work.balls + at) | static_cast<std::int32_t>(arena.basket_mask)
                     | (lanes::load<I>(work.switch_lit + at) & static_cast<std::int32_t>(arena.switch_mask));
     Known const known = look_up(arena, x, y, open);
-    mechanics::Directions<F> const look = mechanics::directions(math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
+    mechanics::Directions<F> const look = mechanics::directions(
+        math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
     F distances[3];
     cast_rays(arena, x, y, look, ~open, distances);
     LightsSeen const lights = see_lights(arena, x, y, look, known, shining, open);
-    auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline)) -> I { return (seen & static_cast<std::int32_t>(kind)) != 0; };
-    I const binary[9] = {sees(lights.right, arena.ball_mask), sees(lights.left, arena.ball_mask),
-                         sees(lights.right, arena.basket_mask), sees(lights.left, arena.basket_mask),
-                         sees(lights.right, arena.switch_mask), sees(lights.left, arena.switch_mask),
-                         lanes::load<I>(work.bumper_right + at), lanes::load<I>(work.bumper_left + at), lanes::load<I>(work.carrying + at)};
+    auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline))->I {
+        return (seen & static_cast<std::int32_t>(kind)) != 0;
+    };
+    I const binary[9] = {sees(lights.right, arena.ball_mask),    sees(lights.left, arena.ball_mask),
+                         sees(lights.right, arena.basket_mask),  sees(lights.left, arena.basket_mask),
+                         sees(lights.right, arena.switch_mask),  sees(lights.left, arena.switch_mask),
+                         lanes::load<I>(work.bumper_right + at), lanes::load<I>(work.bumper_left + at),
+                         lanes::load<I>(work.carrying + at)};
     I word{};
     for (int b = 0; b < 9; ++b) {
         lanes::store(work.neurons + (3 + b) * row + at, ones_where(binary[b]));
@@ -202,9 +214,11 @@ LORE_INLINE void tick_group(LaneWork& work, int base, NeuronGroup const& group, 
     }
     for (int k = 0; k < count; ++k) {
         int const target = group.first_target + k;
-        float* const to = (target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row) + base;
+        float* const to =
+            (target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row) + base;
         for (int v = 0; v < vectors; ++v)
-            lanes::store(to + v * width, activation(lanes::load<F>(networks.biases + target * row + base + v * width), sums[v][k]));
+            lanes::store(to + v * width,
+                         activation(lanes::load<F>(networks.biases + target * row + base + v * width), sums[v][k]));
     }
 }
 
@@ -248,12 +262,15 @@ LORE_INLINE void act(LaneWork& work, int at, F const& collect) {
 LORE_INLINE void move(LaneWork& work, int at, F const& left_wheel, F const& right_wheel) {
     LaneArena const& arena = work.arena;
     F const x = lanes::load<F>(work.x + at), y = lanes::load<F>(work.y + at);
-    mechanics::Drive<F> const drive = mechanics::drive(left_wheel, right_wheel, arena.max_speed, arena.inverse_wheel_distance);
-    mechanics::Vector<F> const way = mechanics::arc(drive, math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
+    mechanics::Drive<F> const drive =
+        mechanics::drive(left_wheel, right_wheel, arena.max_speed, arena.inverse_wheel_distance);
+    mechanics::Vector<F> const way = mechanics::arc(
+        drive, math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
     F const next_x = x + way.x, next_y = y + way.y;
     F const theta = mechanics::wrap(F(lanes::load<F>(work.theta + at) + drive.turn));
     math::SinCos<F> const heading = math::sincos(theta);
-    Contact const contact = touch_walls(arena, work.touchable[at / width], next_x, next_y, heading, lanes::load<I>(work.door_open + at));
+    Contact const contact =
+        touch_walls(arena, work.touchable[at / width], next_x, next_y, heading, lanes::load<I>(work.door_open + at));
     lanes::store(work.x + at, lanes::select(contact.any, x, next_x));
     lanes::store(work.y + at, lanes::select(contact.any, y, next_y));
     lanes::store(work.theta + at, theta);
@@ -279,7 +296,8 @@ void run(LaneWork& work, int base, int first, int last) {
         for (int at = base; at < end; at += width) {
             F const collect = lanes::load<F>(effectors + 2 * row + at);
             I word = lanes::load<I>(work.word + at);
-            for (int e = 0; e < outputs; ++e) word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) & (1 << (12 + e));
+            for (int e = 0; e < outputs; ++e)
+                word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) & (1 << (12 + e));
             lanes::store(work.words + step * row + at, __builtin_convertvector(word, Words));
             act(work, at, collect);
         }

@@ -22,7 +22,8 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
         if (network == nullptr) continue;
         hidden_count_ = std::max(hidden_count_, network->hidden_count);
         for (int target = 0; target < network->target_count(); ++target)
-            for (int i = network->first[static_cast<std::size_t>(target)]; i < network->first[static_cast<std::size_t>(target) + 1]; ++i)
+            for (int i = network->first[static_cast<std::size_t>(target)];
+                 i < network->first[static_cast<std::size_t>(target) + 1]; ++i)
                 feeds[static_cast<std::size_t>(target)].set(network->source[static_cast<std::size_t>(i)]);
     }
 
@@ -61,14 +62,17 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
                 if (static_cast<int>(target) >= network->target_count()) continue;
                 biases_[target * static_cast<std::size_t>(width) + lane] = network->bias[target];
                 for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i)
-                    weights_[static_cast<std::size_t>(entry_of[g][network->source[i]] + k * width) + lane] = network->weight[i];
+                    weights_[static_cast<std::size_t>(entry_of[g][network->source[i]] + k * width) + lane] =
+                        network->weight[i];
             }
     }
 }
 
 LaneNetworks LaneNetworkLayout::view() const {
-    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(), biases_.data(),
-            hidden_count_, static_cast<int>(weights_.size())};
+    return {groups_.data(),  static_cast<int>(groups_.size()),
+            sources_.data(), offsets_.data(),
+            weights_.data(), biases_.data(),
+            hidden_count_,   static_cast<int>(weights_.size())};
 }
 
 } // namespace lore

@@ -11,7 +11,8 @@ namespace lore {
 /// Vectors that one kernel advances together, phase by phase. A step is one long chain of dependent operations; while
 /// one vector waits for its results the processor works on the other.
 inline constexpr int lane_vectors = 2;
-inline constexpr int lane_slots = 16 * lane_vectors;   ///< lanes of the widest kernel; narrower ones use the first of them
+inline constexpr int lane_slots =
+    16 * lane_vectors; ///< lanes of the widest kernel; narrower ones use the first of them
 
 /// An interval [lo, hi] of a face line; `door`: there only while the door is shut.
 struct FaceInterval { float lo, hi; std::int32_t door; };
@@ -40,8 +41,9 @@ struct LaneArena {
     void const* cells;                ///< Surroundings::cells
     std::int32_t columns, rows, open_offset;
     float cells_per_u;
-    /// Lights to look at wherever a lane is. A robot is never nearer to a wall than its radius, so no wall comes between
-    /// it and a ball within a reach that is no longer: hidden lights can be passed over, else the balls and the lamp not.
+    /// Lights to look at wherever a lane is. A robot is never nearer to a wall than its radius, so no wall comes
+    /// between it and a ball within a reach that is no longer: hidden lights can be passed over, else the balls and the
+    /// lamp not.
     std::uint32_t always_asked;
 
     float radius, radius_squared, reach_squared, max_speed, inverse_wheel_distance, sensor_range, inverse_range;

@@ -56,7 +56,8 @@ private:
 /// The lanes, filled from a source whenever one is idle.
 class LaneRun {
 public:
-    LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer)
+    LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps,
+            LaneObserver& observer)
         : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
           width_(lane_count()), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
@@ -74,7 +75,9 @@ public:
         work_.trail_x = trail_x_.data();
         work_.trail_y = trail_y_.data();
         work_.owner = this;
-        work_.act = [](LaneWork& work, int lane, float collect) { static_cast<LaneRun*>(work.owner)->act_plainly(lane, collect); };
+        work_.act = [](LaneWork& work, int lane, float collect) {
+            static_cast<LaneRun*>(work.owner)->act_plainly(lane, collect);
+        };
     }
 
     void run() {
@@ -160,7 +163,8 @@ private:
 
     void act_plainly(int lane, float collect) {
         read_world(lane);
-        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, {0.0f, 0.0f, collect}, lanes_[static_cast<std::size_t>(lane)].world);
+        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, {0.0f, 0.0f, collect},
+            lanes_[static_cast<std::size_t>(lane)].world);
         write_world(lane);
     }
 
@@ -180,8 +184,11 @@ private:
             row = to;
             for (int l = 0; l < width_; ++l) {
                 Lane& lane = lanes_[static_cast<std::size_t>(l)];
-                if (config_.stop_when_still > 0 && lane.valid >= row && stood_still(l)) lane.valid = lane.steps_left = row;
-                if (lane.episode < 0 || ended[static_cast<std::size_t>(l)] || lane.valid != row || lane.steps_left != row) continue;
+                if (config_.stop_when_still > 0 && lane.valid >= row && stood_still(l))
+                    lane.valid = lane.steps_left = row;
+                if (lane.episode < 0 || ended[static_cast<std::size_t>(l)] || lane.valid != row ||
+                    lane.steps_left != row)
+                    continue;
                 ended[static_cast<std::size_t>(l)] = true;
                 read_world(l);
                 final_worlds[static_cast<std::size_t>(l)] = lane.world;
@@ -218,12 +225,15 @@ private:
     /// True if the last step left everything as it was that steps depend on: pose, bumpers, hidden neurons, world. All
     /// further steps are then the same. (Any event of the rules changes one of the world's values compared here.)
     bool at_rest(int l) const {
-        if (work_.x[l] != before_.x[l] || work_.y[l] != before_.y[l] || work_.theta[l] != before_.theta[l]) return false;
-        for (std::size_t i = static_cast<std::size_t>(l); i < hidden_before_.size(); i += static_cast<std::size_t>(width_))
+        if (work_.x[l] != before_.x[l] || work_.y[l] != before_.y[l] || work_.theta[l] != before_.theta[l])
+            return false;
+        for (std::size_t i = static_cast<std::size_t>(l); i < hidden_before_.size();
+             i += static_cast<std::size_t>(width_))
             if (work_.neurons[static_cast<std::size_t>(sensor_count * width_) + i] != hidden_before_[i]) return false;
-        return work_.bumper_right[l] == before_.bumper_right[l] && work_.bumper_left[l] == before_.bumper_left[l]
-            && work_.carrying[l] == before_.carrying[l] && work_.door_open[l] == before_.door_open[l] && work_.balls[l] == before_.balls[l]
-            && work_.switch_lit[l] == before_.switch_lit[l] && work_.switch_timer[l] == before_.switch_timer[l];
+        return work_.bumper_right[l] == before_.bumper_right[l] && work_.bumper_left[l] == before_.bumper_left[l] &&
+               work_.carrying[l] == before_.carrying[l] && work_.door_open[l] == before_.door_open[l] &&
+               work_.balls[l] == before_.balls[l] && work_.switch_lit[l] == before_.switch_lit[l] &&
+               work_.switch_timer[l] == before_.switch_timer[l];
     }
 
     Arena const& arena_;
@@ -248,12 +258,14 @@ private:
 
 int lane_count() { return lane_vectors * lanes_of(active_isa()); }
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps, LaneObserver& observer) {
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps,
+                  LaneObserver& observer) {
     assert(chunk_steps >= 1 && config.steps >= 1);
     LaneRun{arena, config, source, chunk_steps, observer}.run();
 }
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps, LaneObserver& observer) {
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps,
+                  LaneObserver& observer) {
     AllAtOnce source{episodes};
     run_in_lanes(arena, config, source, chunk_steps, observer);
 }

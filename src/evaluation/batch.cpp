@@ -46,7 +46,8 @@ public:
 
     /// Whole windows, where there is a knowledge base.
     int chunk_steps() const {
-        return window_length_ == 0 ? usual_chunk_steps : window_length_ * std::max(1, usual_chunk_steps / window_length_);
+        return window_length_ == 0 ? usual_chunk_steps
+                                   : window_length_ * std::max(1, usual_chunk_steps / window_length_);
     }
 
     std::optional<Episode> next() override {
@@ -74,9 +75,11 @@ public:
         std::array<std::uint16_t*, most_lanes> places{};
         idle_.resize(static_cast<std::size_t>(chunk.steps));
         for (int lane = 0; lane < chunk.width; ++lane)
-            places[static_cast<std::size_t>(lane)] = valid[static_cast<std::size_t>(lane)] > 0 ? at(lane).bits.data() + at(lane).steps : idle_.data();
+            places[static_cast<std::size_t>(lane)] =
+                valid[static_cast<std::size_t>(lane)] > 0 ? at(lane).bits.data() + at(lane).steps : idle_.data();
         kernel_.transpose_words(chunk.words, chunk.steps, chunk.width, places.data());
-        bool const shaping = reader_ && std::any_of(valid.begin(), valid.end(), [this](int rows) { return rows >= window_length_; });
+        bool const shaping =
+            reader_ && std::any_of(valid.begin(), valid.end(), [this](int rows) { return rows >= window_length_; });
         int const columns = chunk.steps * continuous_count;
         if (shaping) {
             windows_.resize(static_cast<std::size_t>(columns * chunk.width));
@@ -87,9 +90,12 @@ public:
             int const rows = valid[static_cast<std::size_t>(lane)];
             if (rows == 0) continue;
             Lane& now = at(lane);
-            for (int row = rows; row < chunk.steps; ++row) count_row(chunk, lane, row, ~0u);   // not the episode's: take back
-            for (int row = (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample; row < rows; row += steps_per_tile_sample)
-                now.path.push_back(tile_of(context_.arena, chunk.x[row * chunk.width + lane], chunk.y[row * chunk.width + lane]));
+            for (int row = rows; row < chunk.steps; ++row)
+                count_row(chunk, lane, row, ~0u); // not the episode's: take back
+            for (int row = (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
+                 row < rows; row += steps_per_tile_sample)
+                now.path.push_back(
+                    tile_of(context_.arena, chunk.x[row * chunk.width + lane], chunk.y[row * chunk.width + lane]));
             if (shaping)
                 for (int row = 0; row + window_length_ <= rows; row += window_length_) show_window(lane, row, columns);
             now.steps += rows;
@@ -101,9 +107,11 @@ public:
     void rest(int lane, int steps) override {
         Lane& now = at(lane);
         int const row = last_.steps - 1;
-        for (int k = 0; k < steps; ++k) now.bits[static_cast<std::size_t>(now.steps + k)] = last_.words[row * last_.width + lane];
+        for (int k = 0; k < steps; ++k)
+            now.bits[static_cast<std::size_t>(now.steps + k)] = last_.words[row * last_.width + lane];
         count_row(last_, lane, row, static_cast<std::uint32_t>(steps));
-        int const first = now.steps + (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
+        int const first =
+            now.steps + (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
         Tile const tile = tile_of(context_.arena, last_.x[row * last_.width + lane], last_.y[row * last_.width + lane]);
         for (int step = first; step < now.steps + steps; step += steps_per_tile_sample) now.path.push_back(tile);
         if (reader_ && steps >= window_length_) show_still_window(lane, row);
@@ -116,13 +124,15 @@ public:
         e.balls = world.collected;
         e.shaping = now.shaping.best;
         Descriptors& d = e.descriptors;
-        d.balls.assign(world.released.begin(), world.released.begin() + static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
+        d.balls.assign(world.released.begin(),
+                       world.released.begin() + static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
         d.bits.assign(now.bits.begin(), now.bits.begin() + now.steps);
         d.path = now.path;
         ChannelHistograms histograms;
         for (int c = 0; c < continuous_count; ++c)
             for (int bin = 0; bin < entropy_bins; ++bin)
-                histograms.continuous[static_cast<std::size_t>(c)][static_cast<std::size_t>(bin)] = tally_.counts[c][bin][lane];
+                histograms.continuous[static_cast<std::size_t>(c)][static_cast<std::size_t>(bin)] =
+                    tally_.counts[c][bin][lane];
         std::uint32_t ones[binary_count];
         kernel_.count_ones(d.bits.data(), now.steps, ones);
         std::copy_n(ones, binary_count, histograms.ones.begin());
@@ -144,14 +154,16 @@ private:
 
     void count_row(LaneChunk const& chunk, int lane, int row, std::uint32_t times) {
         for (int c = 0; c < continuous_count; ++c)
-            tally_.counts[c][entropy_bin(chunk.values[(row * continuous_count + c) * chunk.width + lane])][lane] += times;
+            tally_.counts[c][entropy_bin(chunk.values[(row * continuous_count + c) * chunk.width + lane])][lane] +=
+                times;
     }
 
     void show_window(int lane, int row, int columns) {
         Lane& now = at(lane);
         auto const length = static_cast<std::size_t>(window_length_);
         std::span<std::uint16_t const> const bits{now.bits.data() + now.steps + row, length};
-        reader_->see({bits, {windows_.data() + lane * columns + row * continuous_count, length * continuous_count}}, now.shaping);
+        reader_->see({bits, {windows_.data() + lane * columns + row * continuous_count, length * continuous_count}},
+                     now.shaping);
     }
 
     /// Every window of a robot at rest shows the same row throughout.
@@ -180,7 +192,8 @@ private:
 /// Genomes that are all there, handed out by size: lanes cost what the widest network among them costs.
 class AllAtOnce : public EvaluationFeed {
 public:
-    explicit AllAtOnce(std::span<Genome const* const> genomes) : evaluations(genomes.size()), genomes_(genomes), order_(genomes.size()) {
+    explicit AllAtOnce(std::span<Genome const* const> genomes)
+        : evaluations(genomes.size()), genomes_(genomes), order_(genomes.size()) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return larger(*at(a), *at(b)); });
     }
@@ -189,7 +202,9 @@ public:
         int const ticket = order_[next_++];
         return Item{ticket, at(ticket)};
     }
-    void deliver(int ticket, Evaluation evaluation) override { evaluations[static_cast<std::size_t>(ticket)] = std::move(evaluation); }
+    void deliver(int ticket, Evaluation evaluation) override {
+        evaluations[static_cast<std::size_t>(ticket)] = std::move(evaluation);
+    }
 
     std::vector<Evaluation> evaluations;
 

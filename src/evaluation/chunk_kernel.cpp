@@ -9,8 +9,8 @@ namespace {
 constexpr int width = LORE_LANES;
 using F = Lanes<float, width>;
 using I = Lanes<std::int32_t, width>;
-/// A lane counts its ten bins in fields of three bits, and every seven steps moves them, the even and the odd ones apart,
-/// to fields of six bits, which hold 63 steps.
+/// A lane counts its ten bins in fields of three bits, and every seven steps moves them, the even and the odd ones
+/// apart, to fields of six bits, which hold 63 steps.
 constexpr int narrow_bits = 3, wide_bits = 6;
 constexpr int narrow_steps = 7, wide_steps = 63;
 constexpr std::int32_t even_fields = 07'07'07'07'07;
@@ -35,7 +35,8 @@ void tally_some(float const* values, int steps, int lanes, int at, LaneTally& ta
         float const* column = values + channel * lanes + at;
         for (int done = 0; done < steps;) {
             I narrow{};
-            for (int const until = steps - done < narrow_steps ? steps : done + narrow_steps; done < until; ++done, column += tally_channels * lanes)
+            for (int const until = steps - done < narrow_steps ? steps : done + narrow_steps; done < until;
+                 ++done, column += tally_channels * lanes)
                 narrow += one_in_field(lanes::truncate(F(lanes::load<F>(column) * 9.99f)));   // entropy_bin
             even += narrow & even_fields;
             odd += narrow >> narrow_bits & even_fields;
@@ -51,7 +52,8 @@ void tally_some(float const* values, int steps, int lanes, int at, LaneTally& ta
 void tally_chunk(float const* values, int steps, int lanes, LaneTally& tally) {
     for (int done = 0; done < steps; done += wide_steps)
         for (int at = 0; at < lanes; at += width)
-            tally_some(values + done * tally_channels * lanes, steps - done < wide_steps ? steps - done : wide_steps, lanes, at, tally);
+            tally_some(values + done * tally_channels * lanes, steps - done < wide_steps ? steps - done : wide_steps,
+                       lanes, at, tally);
 }
 
 void transpose_values(float const* values, int columns, int lanes, float* out) {

@@ -12,7 +12,8 @@ Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& geno
     return evaluation;
 }
 
-void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix) {
+void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known,
+                        DistanceMatrix& matrix) {
     measure_rows(kind, pool, known, static_cast<int>(pool.size()), matrix);
 }
 

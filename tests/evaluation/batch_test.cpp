@@ -28,7 +28,8 @@ std::vector<Isa> usable_isas() {
 /// Sets the gene of an edge so that it decodes to `weight`.
 void join(Genome& genome, int source, int target, float weight) {
     std::erase_if(genome.edges, [&](Edge const& edge) { return edge.source == source && edge.target == target; });
-    genome.edges.push_back({static_cast<NeuronIndex>(source), static_cast<NeuronIndex>(target), (weight + 5.0f) / 10.0f});
+    genome.edges.push_back(
+        {static_cast<NeuronIndex>(source), static_cast<NeuronIndex>(target), (weight + 5.0f) / 10.0f});
 }
 
 /// Drives ahead, turns away from what its sensors meet, collects always or where no basket is seen: gets about.
@@ -120,12 +121,14 @@ void expect_equal(Evaluation const& fast, Evaluation const& plain) {
     auto const difference = std::mismatch(fast.descriptors.bits.begin(), fast.descriptors.bits.end(),
                                           plain.descriptors.bits.begin(), plain.descriptors.bits.end());
     EXPECT_EQ(fast.descriptors.bits.size(), plain.descriptors.bits.size());
-    EXPECT_TRUE(difference.first == fast.descriptors.bits.end()) << "first at step " << difference.first - fast.descriptors.bits.begin();
+    EXPECT_TRUE(difference.first == fast.descriptors.bits.end())
+        << "first at step " << difference.first - fast.descriptors.bits.begin();
     EXPECT_TRUE(fast == plain);
 }
 
 /// With every instruction set this processor has, against evaluations done plainly.
-void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> const& genomes, std::vector<Evaluation> const& plain) {
+void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> const& genomes,
+                          std::vector<Evaluation> const& plain) {
     Isa const before = active_isa();
     for (Isa isa : usable_isas()) {
         use_isa(isa);
@@ -142,7 +145,8 @@ void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> 
 }
 
 /// A knowledge base of what some wanderers did.
-Shaper shaper_from(std::string const& task, KnowledgeConfig const& config, int individuals, IndexKind kind = IndexKind::exact) {
+Shaper shaper_from(std::string const& task, KnowledgeConfig const& config, int individuals,
+                   IndexKind kind = IndexKind::exact) {
     KnowledgeBuilder builder{config, make_exact_index(config)};
     auto const teachers = population(individuals, 99);
     for (std::size_t i = 0; i < teachers.size(); ++i) {
@@ -185,7 +189,8 @@ TEST_P(EvaluateBatch, serves_every_batch_size) {
             auto const all = pointers(genomes);
             auto const fast = evaluate_batch(context, std::span{all}.last(size));
             ASSERT_EQ(fast.size(), size);
-            for (std::size_t i = 0; i < size; ++i) ASSERT_TRUE(fast[i] == plain[genomes.size() - size + i]) << name(isa) << ' ' << size << ' ' << i;
+            for (std::size_t i = 0; i < size; ++i)
+                ASSERT_TRUE(fast[i] == plain[genomes.size() - size + i]) << name(isa) << ' ' << size << ' ' << i;
         }
     }
     use_isa(before);
@@ -220,7 +225,8 @@ TEST_P(EvaluateBatch, gives_the_same_from_a_feed_that_stutters) {
         use_isa(isa);
         StutteringFeed feed{genomes};
         evaluate_stream(context, feed);
-        for (std::size_t i = 0; i < genomes.size(); ++i) EXPECT_EQ(feed.results[i], evaluate_plainly(context, genomes[i])) << i << " " << name(isa);
+        for (std::size_t i = 0; i < genomes.size(); ++i)
+            EXPECT_EQ(feed.results[i], evaluate_plainly(context, genomes[i])) << i << " " << name(isa);
     }
 }
 
@@ -253,7 +259,8 @@ TEST_P(EvaluateBatch, stops_when_still_as_the_plain_evaluation_does) {
 
 TEST_P(EvaluateBatch, finishes_robots_at_rest_with_the_same_result) {
     // Without edges the wheels are constants: standing still, and pushing against a wall without turning.
-    std::vector<Genome> genomes{{{}, {0.5f, 0.5f, 0.5f}}, {{}, {0.3f, 0.3f, 0.0f}}, {{}, {0.3f, 0.3f, 1.0f}}, {{}, {0.7f, 0.7f, 1.0f}}};
+    std::vector<Genome> genomes{
+        {{}, {0.5f, 0.5f, 0.5f}}, {{}, {0.3f, 0.3f, 0.0f}}, {{}, {0.3f, 0.3f, 1.0f}}, {{}, {0.7f, 0.7f, 1.0f}}};
     for (Genome& genome : population(30, 6)) genomes.push_back(std::move(genome));
     EvaluationContext const context{arena(GetParam()), {3999, 0}, shaper_from(GetParam(), {}, 6)};
     expect_batches_equal(context, genomes, evaluate_all_plainly(context, genomes));

@@ -211,7 +211,8 @@ LORE_INLINE auto gather(T const* table, I const& index) {
         else
 #endif
 #if defined(__AVX2__)
-        if constexpr (width == 8) return (V)_mm256_i32gather_epi32(reinterpret_cast<int const*>(table), (__m256i)index, 4);
+            if constexpr (width == 8)
+            return (V)_mm256_i32gather_epi32(reinterpret_cast<int const*>(table), (__m256i)index, 4);
         else
 #endif
         {
@@ -232,13 +233,15 @@ LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
     constexpr int width = sizeof(I) / sizeof(std::int32_t);
 #if defined(__AVX512F__)
     if constexpr (width == 16) {
+        // The indices have names of their own because with clang the intrinsics are macros.
         using Half = Lanes<std::int32_t, 8>;
         char const* const from = reinterpret_cast<char const*>(&index);
         __m256i const first = (__m256i)load<Half>(from), second = (__m256i)load<Half>(from + sizeof(Half));
         __m512i const a = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, first, table, 8);
         __m512i const b = _mm512_mask_i32gather_epi64(__m512i{}, 0xff, second, table, 8);
         I const even{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
-        return {(I)_mm512_permutex2var_epi32(a, (__m512i)even, b), (I)_mm512_permutex2var_epi32(a, (__m512i)(even + 1), b)};
+        return {(I)_mm512_permutex2var_epi32(a, (__m512i)even, b),
+                (I)_mm512_permutex2var_epi32(a, (__m512i)(even + 1), b)};
     } else
 #endif
 #if defined(__AVX2__)
@@ -246,14 +249,16 @@ LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
         auto const* const words = static_cast<long long const*>(table);
         __m256i const a = _mm256_i32gather_epi64(words, _mm256_castsi256_si128((__m256i)index), 8);
         __m256i const b = _mm256_i32gather_epi64(words, _mm256_extracti128_si256((__m256i)index, 1), 8);
-        __m256 const low = _mm256_shuffle_ps((__m256)a, (__m256)b, 0x88), high = _mm256_shuffle_ps((__m256)a, (__m256)b, 0xdd);
+        __m256 const low = _mm256_shuffle_ps((__m256)a, (__m256)b, 0x88),
+                     high = _mm256_shuffle_ps((__m256)a, (__m256)b, 0xdd);
         return {(I)_mm256_permute4x64_epi64((__m256i)low, 0xd8), (I)_mm256_permute4x64_epi64((__m256i)high, 0xd8)};
     } else
 #endif
     {
         WordPair<I> pair{};
         for (int lane = 0; lane < width; ++lane) {
-            auto const word = load<Lanes<std::int32_t, 2>>(static_cast<char const*>(table) + 8 * static_cast<std::int64_t>(index[lane]));
+            auto const word = load<Lanes<std::int32_t, 2>>(static_cast<char const*>(table) +
+                                                           8 * static_cast<std::int64_t>(index[lane]));
             pair.low[lane] = word[0];
             pair.high[lane] = word[1];
         }

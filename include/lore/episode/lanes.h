@@ -52,7 +52,8 @@ public:
 
 /// Runs all episodes, several at once in the lanes of the active instruction set (core/isa.h), each equal to
 /// run_episode to the bit: the fast path. Shows `chunk_steps` steps at a time; every episode starts with a new chunk.
-void run_in_lanes(Arena const&, EpisodeConfig const&, std::span<Network const> episodes, int chunk_steps, LaneObserver&);
+void run_in_lanes(Arena const&, EpisodeConfig const&, std::span<Network const> episodes, int chunk_steps,
+                  LaneObserver&);
 /// The same for episodes that come one by one, until none runs and the source has none. Cheapest if networks of similar
 /// size follow each other.
 void run_in_lanes(Arena const&, EpisodeConfig const&, EpisodeSource&, int chunk_steps, LaneObserver&);
