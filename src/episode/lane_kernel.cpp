@@ -199,43 +199,43 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
 LORE_INLINE F activation(F const& bias, F const& sum) { return 1.0f / (1.0f + math::exp(F(bias - sum))); }
 
 template <int vectors, int count>
-LORE_INLINE void tick_group(LaneWork& work, int base, NeuronGroup const& group, float* outputs_row) {
+LORE_INLINE void tick_group(LaneWork& work, NeuronGroup const& group, float* outputs_row) {
     LaneNetworks const& networks = work.networks;
     F sums[vectors][count];
     for (auto& of_vector : sums)
         for (F& sum : of_vector) sum = F{};
     for (int entry = group.first_entry; entry < group.last_entry; ++entry) {
-        float const* const source = work.neurons + networks.sources[entry] * row + base;
-        float const* const weights = networks.weights + networks.offsets[entry] + base;
+        float const* const source = work.neurons + networks.sources[entry] * row;
+        float const* const weights = networks.weights + networks.offsets[entry];
         for (int v = 0; v < vectors; ++v) {
             F const value = lanes::load<F>(source + v * width);
-            for (int k = 0; k < count; ++k) sums[v][k] += lanes::load<F>(weights + k * row + v * width) * value;
+            float const* const own = weights + v * networks.block_size;
+            for (int k = 0; k < count; ++k) sums[v][k] += lanes::load<F>(own + k * width) * value;
         }
     }
     for (int k = 0; k < count; ++k) {
         int const target = group.first_target + k;
-        float* const to =
-            (target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row) + base;
+        float* const to = target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row;
         for (int v = 0; v < vectors; ++v)
             lanes::store(to + v * width,
-                         activation(lanes::load<F>(networks.biases + target * row + base + v * width), sums[v][k]));
+                         activation(lanes::load<F>(networks.biases + target * row + v * width), sums[v][k]));
     }
 }
 
-/// One tick of the networks in the lanes from `base` on; the outputs go to three rows.
+/// One tick of all lanes' networks; the outputs go to three rows.
 template <int vectors>
-LORE_INLINE void tick(LaneWork& work, int base, float* outputs_row) {
+LORE_INLINE void tick(LaneWork& work, float* outputs_row) {
     for (int g = 0; g < work.networks.group_count; ++g) {
         NeuronGroup const& group = work.networks.groups[g];
         switch (group.count) {
-        case 4: tick_group<vectors, 4>(work, base, group, outputs_row); break;
-        case 3: tick_group<vectors, 3>(work, base, group, outputs_row); break;
-        case 2: tick_group<vectors, 2>(work, base, group, outputs_row); break;
-        default: tick_group<vectors, 1>(work, base, group, outputs_row); break;
+        case 4: tick_group<vectors, 4>(work, group, outputs_row); break;
+        case 3: tick_group<vectors, 3>(work, group, outputs_row); break;
+        case 2: tick_group<vectors, 2>(work, group, outputs_row); break;
+        default: tick_group<vectors, 1>(work, group, outputs_row); break;
         }
     }
     for (int h = 0; h < work.networks.hidden_count; ++h)
-        for (int at = h * row + base; at < h * row + base + vectors * width; at += width)
+        for (int at = h * row; at < h * row + vectors * width; at += width)
             lanes::store(work.neurons + inputs * row + at, lanes::load<F>(work.next_hidden + at));
 }
 
@@ -280,20 +280,19 @@ LORE_INLINE void move(LaneWork& work, int at, F const& left_wheel, F const& righ
     lanes::store(work.bumper_left + at, contact.left);
 }
 
-/// Advances the lanes from `base` on, as many vectors as said.
 template <int vectors>
-void run(LaneWork& work, int base, int first, int last) {
-    int const end = base + vectors * width;
-    for (int at = base; at < end; at += width) {
+void run(LaneWork& work, int first, int last) {
+    constexpr int end = vectors * width;
+    for (int at = 0; at < end; at += width) {
         math::SinCos<F> const heading = math::sincos(lanes::load<F>(work.theta + at));
         lanes::store(work.heading_sin + at, heading.sin);
         lanes::store(work.heading_cos + at, heading.cos);
     }
     for (int step = first; step < last; ++step) {
-        for (int at = base; at < end; at += width) sense(work, at, step);
+        for (int at = 0; at < end; at += width) sense(work, at, step);
         float* const effectors = work.values + (step * 6 + 3) * row;
-        tick<vectors>(work, base, effectors);
-        for (int at = base; at < end; at += width) {
+        tick<vectors>(work, effectors);
+        for (int at = 0; at < end; at += width) {
             F const collect = lanes::load<F>(effectors + 2 * row + at);
             I word = lanes::load<I>(work.word + at);
             for (int e = 0; e < outputs; ++e)
@@ -301,7 +300,7 @@ void run(LaneWork& work, int base, int first, int last) {
             lanes::store(work.words + step * row + at, __builtin_convertvector(word, Words));
             act(work, at, collect);
         }
-        for (int at = base; at < end; at += width)
+        for (int at = 0; at < end; at += width)
             move(work, at, lanes::load<F>(effectors + at), lanes::load<F>(effectors + row + at));
     }
 }
@@ -309,11 +308,8 @@ void run(LaneWork& work, int base, int first, int last) {
 } // namespace
 
 void run_steps(LaneWork& work, int first, int last) {
-    if (work.vectors == lane_vectors && work.networks.weight_count <= most_weights_together) {
-        run<lane_vectors>(work, 0, first, last);
-    } else {
-        for (int v = 0; v < work.vectors; ++v) run<1>(work, v * width, first, last);
-    }
+    if (work.vectors == 1) run<1>(work, first, last);
+    else run<lane_vectors>(work, first, last);
 }
 
 } // namespace lore::LORE_ISA_NAMESPACE

@@ -32,6 +32,7 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
     sources_.clear();
     offsets_.clear();
     std::vector<std::array<int, most_sources>> entry_of;   // [group][source]
+    int const vector_width = width / lane_vectors;
     int offset = 0;
     for (int first = 0; first < targets;) {
         int const count = first == 0 ? effector_count : std::min(group_size, targets - first);
@@ -44,35 +45,36 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
             entry_of.back()[static_cast<std::size_t>(source)] = offset;
             sources_.push_back(source);
             offsets_.push_back(offset);
-            offset += count * width;
+            offset += count * vector_width;
         }
         group.last_entry = static_cast<int>(sources_.size());
         groups_.push_back(group);
         first += count;
     }
 
-    weights_.assign_zeros(static_cast<std::size_t>(offset));
+    block_size_ = offset;
+    weights_.assign_zeros(static_cast<std::size_t>(block_size_ * lane_vectors));
     biases_.assign_zeros(static_cast<std::size_t>(targets * width));
-    for (std::size_t lane = 0; lane < networks.size(); ++lane) {
-        Network const* network = networks[lane];
+    for (int lane = 0; lane < static_cast<int>(networks.size()); ++lane) {
+        Network const* network = networks[static_cast<std::size_t>(lane)];
         if (network == nullptr) continue;
+        int const column = lane / vector_width * block_size_ + lane % vector_width;
         for (std::size_t g = 0; g < groups_.size(); ++g)
             for (int k = 0; k < groups_[g].count; ++k) {
                 auto const target = static_cast<std::size_t>(groups_[g].first_target + k);
                 if (static_cast<int>(target) >= network->target_count()) continue;
-                biases_[target * static_cast<std::size_t>(width) + lane] = network->bias[target];
-                for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i)
-                    weights_[static_cast<std::size_t>(entry_of[g][network->source[i]] + k * width) + lane] =
-                        network->weight[i];
+                biases_[target * static_cast<std::size_t>(width) + static_cast<std::size_t>(lane)] = network->bias[target];
+                for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i) {
+                    int const place = column + entry_of[g][network->source[i]] + k * vector_width;
+                    weights_[static_cast<std::size_t>(place)] = network->weight[i];
+                }
             }
     }
 }
 
 LaneNetworks LaneNetworkLayout::view() const {
-    return {groups_.data(),  static_cast<int>(groups_.size()),
-            sources_.data(), offsets_.data(),
-            weights_.data(), biases_.data(),
-            hidden_count_,   static_cast<int>(weights_.size())};
+    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(),
+            block_size_,    biases_.data(),                   hidden_count_};
 }
 
 } // namespace lore

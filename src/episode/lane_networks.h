@@ -13,7 +13,7 @@ namespace lore {
 /// Owns the networks that lie over each other in the lanes (LaneNetworks).
 class LaneNetworkLayout {
 public:
-    /// Lays the networks anew; null for an idle lane. Call after any lane has changed its network.
+    /// Lays the networks anew, in `width` lanes; null for an idle lane. Call after any lane has changed its network.
     void lay(std::span<Network const* const> networks, int width);
     LaneNetworks view() const;
 
@@ -21,7 +21,7 @@ private:
     std::vector<NeuronGroup> groups_;
     std::vector<std::int32_t> sources_, offsets_;
     AlignedFloats weights_, biases_;
-    int hidden_count_ = 0;
+    int hidden_count_ = 0, block_size_ = 0;
 };
 
 } // namespace lore

@@ -59,22 +59,18 @@ struct NeuronGroup {
 };
 
 /// The lanes' networks laid over each other. An entry is a source that feeds, in any lane, a target of the group; its
-/// weights are [target of group][lane], 0 where a lane has no such edge. That changes no sum: sources are never
+/// weights are [target of group][lane of vector], 0 where a lane has no such edge. That changes no sum: sources are never
 /// negative, so the product is +0, and adding +0 to a sum that started from +0 gives that sum.
 struct LaneNetworks {
     NeuronGroup const* groups;
     std::int32_t group_count;
     std::int32_t const* sources;   ///< per entry: 0..11 input, 12.. hidden
     std::int32_t const* offsets;   ///< per entry: of its weights
-    float const* weights;          ///< rows of one float a lane
+    float const* weights;          ///< one block a vector, so that a vector alone has it close together
+    std::int32_t block_size;       ///< [floats]
     float const* biases;           ///< [target][lane]
     std::int32_t hidden_count;
-    std::int32_t weight_count;
 };
-
-/// With more weights than this the vectors take turns, chunk by chunk: what both read in a step together no longer fits
-/// the innermost cache (24 kB of 32 or 48).
-inline constexpr std::int32_t most_weights_together = 6144;
 
 /// All that changes while the lanes run, and where they record. Arrays are [lane].
 struct alignas(64) LaneWork {

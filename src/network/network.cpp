@@ -3,6 +3,7 @@
 #include <lore/core/math.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 namespace lore {
@@ -33,27 +34,31 @@ Network compile(Genome const& genome) {
     Network network;
     network.hidden_count = static_cast<int>(std::count_if(numbers.begin(), numbers.end(), [](int n) { return n >= 0; }));
 
-    struct Entry { int target, source; float weight; };
-    std::vector<Entry> entries;
+    // Target, source and weight's bits in one number each: numbers sort faster than structs.
+    std::vector<std::uint64_t> entries;
+    entries.reserve(genome.edges.size());
     for (Edge const& edge : genome.edges) {
         int const target = edge.target < first_hidden ? -1 : numbers[edge.target - first_hidden];
         if (edge.target >= first_hidden && target < 0) continue;
         int const source = edge.source < sensor_count ? -1 : numbers[edge.source - first_hidden];
         assert(edge.source < sensor_count || source >= 0);   // what feeds a useful neuron is useful
-        entries.push_back({edge.target < first_hidden ? edge.target - first_output : effector_count + target,
-                           edge.source < sensor_count ? edge.source : sensor_count + source, decode_gene(edge.weight)});
+        auto const to = static_cast<std::uint64_t>(
+            edge.target < first_hidden ? edge.target - first_output : effector_count + target);
+        auto const from = static_cast<std::uint64_t>(edge.source < sensor_count ? edge.source : sensor_count + source);
+        entries.push_back(to << 40 | from << 32 | std::bit_cast<std::uint32_t>(decode_gene(edge.weight)));
     }
-    std::sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) {
-        return a.target != b.target ? a.target < b.target : a.source < b.source;
-    });
+    std::sort(entries.begin(), entries.end());   // no two have the same target and source
 
     network.first.assign(static_cast<std::size_t>(network.target_count()) + 1, 0);
-    for (Entry const& entry : entries) {
-        network.source.push_back(static_cast<std::uint8_t>(entry.source));
-        network.weight.push_back(entry.weight);
-        ++network.first[static_cast<std::size_t>(entry.target) + 1];
+    network.source.reserve(entries.size());
+    network.weight.reserve(entries.size());
+    for (std::uint64_t const entry : entries) {
+        network.source.push_back(static_cast<std::uint8_t>(entry >> 32));
+        network.weight.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(entry)));
+        ++network.first[static_cast<std::size_t>(entry >> 40) + 1];
     }
-    for (std::size_t target = 1; target < network.first.size(); ++target) network.first[target] += network.first[target - 1];
+    for (std::size_t target = 1; target < network.first.size(); ++target)
+        network.first[target] = static_cast<std::uint16_t>(network.first[target] + network.first[target - 1]);
 
     for (int output = 0; output < effector_count; ++output)
         network.bias.push_back(5.0f * decode_gene(genome.biases[static_cast<std::size_t>(output)]));
