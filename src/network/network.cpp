@@ -32,7 +32,8 @@ Network compile(Genome const& genome) {
     assert(why_invalid(genome).empty());
     std::vector<int> const numbers = number_useful_neurons(genome);
     Network network;
-    network.hidden_count = static_cast<int>(std::count_if(numbers.begin(), numbers.end(), [](int n) { return n >= 0; }));
+    network.hidden_count =
+        static_cast<int>(std::count_if(numbers.begin(), numbers.end(), [](int n) { return n >= 0; }));
 
     // Target, source and weight's bits in one number each: numbers sort faster than structs.
     std::vector<std::uint64_t> entries;

@@ -1,5 +1,5 @@
-// Episodes: one step of the plain definition, and of the lanes with everything an evaluation records, per instruction set
-// and size of the networks. `step` is the time of one step of one robot.
+// Episodes: the plain definition, and the lanes with everything an evaluation records, per instruction set and size of
+// the networks. `step` is the time of one step of one robot.
 #include "evolved_state.h"
 
 #include <lore/core/isa.h>
@@ -49,7 +49,8 @@ void batch_in_lanes(benchmark::State& state, Isa isa, int edges, int hidden) {
 void plain_episode(benchmark::State& state, int edges, int hidden) {
     std::vector<Genome> const genomes = grown(edges, hidden);
     std::size_t i = 0;
-    for (auto _ : state) benchmark::DoNotOptimize(evaluate_plainly(evolved_state().context, genomes[i++ % genomes.size()]));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(evaluate_plainly(evolved_state().context, genomes[i++ % genomes.size()]));
     count_steps(state, 1);
 }
 
