@@ -1,0 +1,30 @@
+// What ranks say to each other; the first byte says which message the rest is.
+
+#include "fuzz_input.h"
+
+#include <lore/archive/messages.h>
+
+using namespace lore;
+
+void read_input(std::span<std::byte const> input) {
+    if (input.empty()) return;
+    auto const message = input.subspan(1);
+    fuzz::accepts([&] {
+        switch (std::to_integer<int>(input[0]) % 4) {
+        case 0: {
+            std::vector<Genome> const genomes = unpack_genomes(message);
+            std::vector<Genome const*> pointers;
+            for (Genome const& genome : genomes) pointers.push_back(&genome);
+            unpack_genomes(pack_genomes(pointers));
+            break;
+        }
+        case 1: unpack_evaluations(pack_evaluations(unpack_evaluations(message))); break;
+        case 2: unpack_rows(message); break;
+        case 3: {
+            DistanceMatrix matrix{8};
+            unpack_distances(message, 3, 8, matrix);
+            break;
+        }
+        }
+    });
+}

@@ -1,0 +1,22 @@
+// Arrays of NumPy.
+
+#include "fuzz_input.h"
+
+#include <lore/archive/knowledge_export.h>
+#include <lore/archive/npy_file.h>
+
+using namespace lore;
+
+void read_input(std::span<std::byte const> input) {
+    fuzz::MemoryFile const stored{input};
+    fuzz::accepts([&] {
+        NpyArray const array = read_npy(stored.path());
+        std::size_t count = 1;
+        for (std::size_t const size : array.shape) count *= size;
+        fuzz::demand(count == array.values.size());
+    });
+    fuzz::accepts([&] {
+        Trace const windows = read_windows(stored.path(), 2);
+        fuzz::demand(windows.values.size() == windows.bits.size() * continuous_count);
+    });
+}
