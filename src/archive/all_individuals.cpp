@@ -2,6 +2,7 @@
 
 #include "genome_difference.h"
 #include "posix_file.h"
+#include "zstd_frame.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -188,12 +189,11 @@ public:
         read(stored_);
         if (checksum_of(header_, stored_, chain_) != header_.checksum) fail("checksum mismatch: a frame was changed or lost");
         chain_ = header_.checksum;
-        if (header_.raw_length > most_frame_bytes || ZSTD_getFrameContentSize(stored_.data(), stored_.size()) != header_.raw_length)
+        if (header_.raw_length > most_frame_bytes || !may_unpack_to(stored_, header_.raw_length))
             fail("a frame does not have the length that its header states");
-        Bytes raw(header_.raw_length);
-        std::size_t const got = ZSTD_decompress(raw.data(), raw.size(), stored_.data(), stored_.size());
-        if (ZSTD_isError(got) || got != raw.size()) fail("a frame cannot be unpacked");
-        return raw;
+        auto raw = unpack_frame(stored_, header_.raw_length);
+        if (!raw) fail("a frame cannot be unpacked");
+        return std::move(*raw);
     }
     [[noreturn]] void fail(std::string_view reason) const {
         throw Error(fmt::format("cannot read {}", path_), fmt::format("{}, at byte {}", reason, read_),

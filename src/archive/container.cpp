@@ -1,6 +1,7 @@
 #include <lore/archive/container.h>
 
 #include "posix_file.h"
+#include "zstd_frame.h"
 
 #include <lore/archive/atomic_file.h>
 
@@ -26,7 +27,6 @@ constexpr unsigned char magic[8]{0x89, 'L', 'O', 'R', 'E', '\r', '\n', 0x1a};
 constexpr std::uint32_t byte_order_mark = 0x01020304;
 constexpr std::uint32_t flag_zstd = 1;
 constexpr std::uint64_t most_raw_bytes = std::uint64_t{4} << 30;   ///< no payload of Lore comes near it
-constexpr std::uint64_t most_expansion = 32768;                    ///< zstd's own limit: 128 KiB from a 4-byte block
 constexpr int careful_level = 6, fast_level = 1;
 
 /// The first 64 bytes of a file, in the machine's byte order, which byte_order gives away.
@@ -94,20 +94,16 @@ std::span<std::byte const> checked_payload(std::span<std::byte const> file, Head
     bool const packed = (header.flags & flag_zstd) != 0;
     if ((header.flags & ~flag_zstd) != 0 || (!packed && header.raw_length != header.stored_length))
         refuse(name, "its header contradicts itself", renew);
-    if (packed) {
-        if (header.raw_length > most_raw_bytes || header.raw_length / most_expansion > header.stored_length ||
-            ZSTD_getFrameContentSize(stored.data(), stored.size()) != header.raw_length)
-            refuse(name, "its compressed part does not have the length that the header states", renew);
-    }
+    if (packed && (header.raw_length > most_raw_bytes || !may_unpack_to(stored, header.raw_length)))
+        refuse(name, "its compressed part does not have the length that the header states", renew);
     return stored;
 }
 
 Bytes unpack(std::span<std::byte const> stored, Header const& header, std::string_view name) {
     if ((header.flags & flag_zstd) == 0) return Bytes(stored.begin(), stored.end());
-    Bytes raw(header.raw_length);
-    std::size_t const got = ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size());
-    if (ZSTD_isError(got) || got != raw.size()) refuse(name, "its compressed part cannot be unpacked", renew);
-    return raw;
+    auto raw = unpack_frame(stored, header.raw_length);
+    if (!raw) refuse(name, "its compressed part cannot be unpacked", renew);
+    return std::move(*raw);
 }
 
 } // namespace

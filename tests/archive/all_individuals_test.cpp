@@ -1,12 +1,15 @@
 #include <lore/archive/all_individuals.h>
 
+#include "archive/largest_allocation.h"
 #include "archive/random_population.h"
+#include "archive/zstd_claim.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
 
 #include <gmock/gmock.h>
+#include <xxhash.h>
 
 #include <cstdio>
 #include <cstring>
@@ -143,4 +146,29 @@ TEST(AllIndividuals, notice_a_lost_frame) {
     } catch (Error const& error) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("changed or lost"));
     }
+}
+
+TEST(AllIndividuals, of_a_tiny_frame_that_claims_to_be_huge_take_no_memory) {
+    Scratch const scratch;
+    std::uint64_t const claimed = std::uint64_t{1} << 28;   // the most that any frame may have
+    Bytes const packed = zstd_claiming(claimed);
+    struct Frame { std::uint32_t mark, generations; std::uint64_t raw_length, stored_length; } const frame{0x4d415246, 1, claimed, packed.size()};
+    std::uint64_t const sum = XXH3_64bits_withSeed(packed.data(), packed.size(), XXH3_64bits_withSeed(&frame, sizeof frame, 0));
+    Bytes file = seal(FileKind::all_individuals, {}, Packing::plain);
+    auto const append = [&](void const* data, std::size_t size) {
+        auto const* const first = static_cast<std::byte const*>(data);
+        file.insert(file.end(), first, first + size);
+    };
+    append(&frame, sizeof frame);
+    append(&sum, sizeof sum);
+    append(packed.data(), packed.size());
+    write_file_atomically(scratch.file("forged"), std::span<std::byte const>{file});
+    take_largest_allocation();
+    try {
+        read(scratch.file("forged"), 0);
+        FAIL();
+    } catch (Error const& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("a frame does not have the length that its header states"));
+    }
+    EXPECT_LT(take_largest_allocation(), 10000u);
 }

@@ -1,5 +1,7 @@
 #include <lore/archive/container.h>
 
+#include "archive/largest_allocation.h"
+#include "archive/zstd_claim.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
@@ -94,13 +96,36 @@ TEST(Container, refuses_another_kind_and_foreign_files) {
 }
 
 TEST(Container, allocates_nothing_for_a_forged_length) {
+    constexpr std::size_t content = 5000;
     for (std::size_t offset : {24u, 32u})
         for (std::uint64_t length : {std::uint64_t{1} << 62, std::uint64_t{1} << 33, std::uint64_t{12345678}, std::uint64_t{0}}) {
-            Bytes file = seal(FileKind::lineage, random_bytes(5000, 1));
+            Bytes file = seal(FileKind::lineage, random_bytes(content, 1));
             std::memcpy(file.data() + offset, &length, sizeof length);
             reseal(file);
+            take_largest_allocation();
             EXPECT_NE(refusal(file), "") << offset << " " << length;
+            EXPECT_LE(take_largest_allocation(), content) << offset << " " << length;
         }
+}
+
+TEST(Container, allocates_nothing_for_a_few_bytes_that_claim_to_unpack_to_gigabytes) {
+    // A zstd frame whose own header claims 2 GiB, as does Lore's: only their length gives them away.
+    std::uint64_t const claimed = std::uint64_t{1} << 31;
+    Bytes file = seal(FileKind::lineage, zstd_claiming(claimed), Packing::plain);
+    std::uint32_t const flag_zstd = 1;
+    std::memcpy(file.data() + 20, &flag_zstd, sizeof flag_zstd);
+    std::memcpy(file.data() + 32, &claimed, sizeof claimed);
+    reseal(file);
+    take_largest_allocation();
+    EXPECT_THAT(refusal(file), HasSubstr("does not have the length that the header states"));
+    EXPECT_LT(take_largest_allocation(), 1000u);
+}
+
+TEST(Container, unpacks_what_compresses_best) {
+    Bytes const zeros(std::size_t{20} << 20);
+    Bytes const file = seal(FileKind::lineage, zeros);
+    EXPECT_LT(file.size(), 2000u);
+    EXPECT_EQ(unseal(file, FileKind::lineage, "zeros"), zeros);
 }
 
 TEST(Container, survives_a_damaged_compressed_part_behind_a_right_checksum) {

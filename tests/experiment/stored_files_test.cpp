@@ -152,6 +152,7 @@ std::string text_of(std::filesystem::path const& path) {
 /// Whether the reader takes this content; anything but an Error ends the test.
 bool is_taken(Scratch const& scratch, Kind const& kind, std::string const& content) {
     std::string const path = scratch.file("damaged");
+    std::filesystem::remove(path);   // ext4 writes at once what replaces a file's former content
     std::ofstream{path, std::ios::binary} << content;
     try {
         if (kind.read) kind.read(path);
