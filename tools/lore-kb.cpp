@@ -44,6 +44,7 @@ struct Arguments {
     KnowledgeConfig config;
     bool window_length_given = false, threshold_given = false;
     bool all = false, json = false;
+    int every = 1;                       ///< of all
     std::uint64_t seed = 0;
     int top = 0;
     double least_value = 0;
@@ -77,12 +78,13 @@ void build(Arguments const& arguments) {
     if (arguments.threshold_given) config.match_threshold = arguments.config.match_threshold;
 
     auto const individual = run.individual(arguments.individual);
-    auto const total = static_cast<std::int64_t>(arguments.all ? archived_individuals(run) : lineage_of(*individual).size());
+    auto const total = static_cast<std::int64_t>(arguments.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(arguments.every) + 1
+                                                               : lineage_of(*individual).size());
     Progress progress{"building", total, "individuals", arguments.all ? 20000 : 500, arguments.quiet};
     BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) { progress.update(done, fmt::format("{} features", features)); };
     Provenance provenance;
     provenance.made_by = made_by(arguments);
-    KnowledgeBase const base = arguments.all ? knowledge_of_all(run, config, kind, provenance, observe)
+    KnowledgeBase const base = arguments.all ? knowledge_of_all(run, arguments.every, config, kind, provenance, observe)
                                              : knowledge_of_lineage(run, *individual, config, kind, provenance, observe);
     write_knowledge_base(arguments.out, base);
     say(arguments, fmt::format("wrote {}: {} features from {} windows of {} individuals", arguments.out, base.size(),
@@ -268,7 +270,8 @@ int run(int argc, char** argv) {
     add_out(building);
     add_individual(building);
     add_index(building);
-    building->add_flag("--all", arguments.all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
+    auto* const all = building->add_flag("--all", arguments.all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
+    building->add_option("--every", arguments.every, "of all, only the first and every N-th after it")->check(CLI::Range(1, 1000000000))->needs(all);
     auto* const length_option = building->add_option("--window-length", arguments.config.window_length, "steps a window; default: the run's")->check(CLI::Range(1, 4000));
     auto* const threshold_option = building->add_option("--threshold", arguments.config.match_threshold, "distance below which a window matches; default: the run's")->check(CLI::Range(1e-3, 1e3));
 

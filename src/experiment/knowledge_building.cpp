@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -199,14 +200,19 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individ
     return build(run, lineage, config, kind, std::move(provenance), observe);
 }
 
-KnowledgeBase knowledge_of_all(RunDirectory const& run, KnowledgeConfig const& config, IndexKind kind, Provenance provenance,
-                               BuildingObserver const& observe) {
+KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexKind kind,
+                               Provenance provenance, BuildingObserver const& observe) {
+    assert(every >= 1);
     archived_individuals(run);
     provenance.kind = "all";
     provenance.best_balls = run.individual("best")->balls;
     Source const everybody = [&](auto const& each) {
+        std::uint64_t number = 0;
         for_each_individual(run.file(run_file::all_individuals), run.lineage.generation,
-                            [&](ArchivedIndividual const& individual) { each(individual.id, individual.genome, individual.balls); });
+                            [&](ArchivedIndividual const& individual) {
+                                if (number++ % static_cast<std::uint64_t>(every) == 0)
+                                    each(individual.id, individual.genome, individual.balls);
+                            });
     };
     return build(run, everybody, config, kind, std::move(provenance), observe);
 }

@@ -63,7 +63,23 @@ TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_in_order_of_birth) {
     });
     EXPECT_EQ(plain.individuals(), 16u + 6 * 8);
     EXPECT_EQ(archived_individuals(run), plain.individuals());
-    expect_equal(knowledge_of_all(run, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
+    expect_equal(knowledge_of_all(run, 1, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
+}
+
+TEST(KnowledgeOfAll, can_do_with_every_fifth_from_the_first_on) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory const run = open_run(scratch.path());
+    KnowledgeConfig const config = run.config.knowledge;
+    KnowledgeBuilder plain{config, make_scan_index(config)};
+    int number = 0;
+    for_each_individual(run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
+        if (number++ % 5 != 0) return;
+        Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
+        plain.add_individual(windows_of(trace, config.window_length), individual.balls);
+    });
+    EXPECT_EQ(plain.individuals(), 13u);   // of 64
+    expect_equal(knowledge_of_all(run, 5, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
 }
 
 TEST(KnowledgeOfAll, says_what_is_missing_where_the_run_did_not_keep_everybody) {
@@ -71,7 +87,7 @@ TEST(KnowledgeOfAll, says_what_is_missing_where_the_run_did_not_keep_everybody) 
     test::write_small_run(scratch.path());
     std::filesystem::remove(scratch.file(run_file::all_individuals));
     RunDirectory const run = open_run(scratch.path());
-    EXPECT_THROW(knowledge_of_all(run, {}, IndexKind::exact, {}, nobody), Error);
+    EXPECT_THROW(knowledge_of_all(run, 1, {}, IndexKind::exact, {}, nobody), Error);
 }
 
 TEST(KnowledgeOfLineage, refuses_an_individual_whose_evaluation_does_not_repeat) {
@@ -95,5 +111,5 @@ TEST(KnowledgeOfLineage, stops_cleanly_when_its_observer_throws) {
     Scratch const scratch;
     test::write_small_run(scratch.path());
     RunDirectory const run = open_run(scratch.path());
-    EXPECT_THROW(knowledge_of_all(run, {}, IndexKind::exact, {}, [](std::int64_t, std::int64_t) { throw std::runtime_error("enough"); }), std::runtime_error);
+    EXPECT_THROW(knowledge_of_all(run, 1, {}, IndexKind::exact, {}, [](std::int64_t, std::int64_t) { throw std::runtime_error("enough"); }), std::runtime_error);
 }

@@ -70,6 +70,9 @@ TEST_F(LoreKb, builds_tells_and_verifies) {
 TEST_F(LoreKb, builds_from_everybody_and_from_another_individual) {
     expect_done("build run --all --out all.lorekb -q");
     EXPECT_EQ(read_knowledge_base(scratch.file("all.lorekb")).provenance().individuals, 64u);
+    expect_done("build run --all --every 5 --out all.lorekb -q");
+    EXPECT_EQ(read_knowledge_base(scratch.file("all.lorekb")).provenance().individuals, 13u);
+    expect_refusal("build run --every 5 --out x.lorekb", 2, "--all");
     expect_done("build run --individual 6.0 --window-length 10 --threshold 1 --out other.lorekb");
     EXPECT_EQ(read_knowledge_base(scratch.file("other.lorekb")).config(), (KnowledgeConfig{10, 1.0f}));
     expect_refusal("build run --individual 99.0 --out x.lorekb", 2, "99.0");
