@@ -53,8 +53,8 @@ struct Farm::State {
 /// A ticket is a place in the order of size, the largest network first.
 class Farm::OwnFeed : public EvaluationFeed {
 public:
-    OwnFeed(State& state, std::span<Genome const* const> genomes)
-        : results(genomes.size()), state_(state), genomes_(genomes), order_(genomes.size()), ranks_(state.communicator.size()),
+    OwnFeed(State& state, std::span<Genome const* const> genomes, Arrival const& arrival)
+        : results(genomes.size()), state_(state), genomes_(genomes), arrival_(arrival), order_(genomes.size()), ranks_(state.communicator.size()),
           lanes_(lane_count()), held_(static_cast<std::size_t>(ranks_), 0) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
@@ -69,8 +69,13 @@ public:
         return Item{ticket, genome(ticket)};
     }
     void deliver(int ticket, Evaluation evaluation) override {
-        results[static_cast<std::size_t>(index(ticket))] = std::move(evaluation);
+        Evaluation& result = results[static_cast<std::size_t>(index(ticket))];
+        result = std::move(evaluation);
         ++done_;
+        if (ranks_ == 1 || !arrival_ || failure) return;
+        Stopwatch watch;
+        arrival_(index(ticket), result);
+        arrival_seconds_ += watch.lap();
     }
     void pulse() override {
         if (++pulses_ % pulses_a_look != 0) return;
@@ -85,6 +90,8 @@ public:
         }
     }
     int index(int ticket) const { return order_[static_cast<std::size_t>(ticket)]; }
+    /// Spent on arrivals since the last call [s].
+    double arrival_lap() { return std::exchange(arrival_seconds_, 0.0); }
 
     std::vector<Evaluation> results;
     /// Of another rank. Not thrown from here, where it would look like one of this rank's.
@@ -128,11 +135,13 @@ private:
 
     State& state_;
     std::span<Genome const* const> genomes_;
+    Arrival const& arrival_;
     std::vector<int> order_;
     int ranks_, lanes_;
     std::vector<int> held_;   ///< by each worker, under way or waiting
     int next_ = 0, done_ = 0;
     unsigned pulses_ = 0;
+    double arrival_seconds_ = 0;
 };
 
 Farm::Farm(Communicator communicator, StreamEvaluation evaluate)
@@ -142,18 +151,23 @@ Farm::~Farm() {
     if (state_->working) stop();
 }
 
-std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes) {
+std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes, Arrival const& arrival) {
     State& state = *state_;
     Stopwatch watch;
-    OwnFeed feed{state, genomes};
+    OwnFeed feed{state, genomes, arrival};
+    auto const book = [&](double& time) {   // what arrivals took is another account's
+        double const arrivals = feed.arrival_lap();
+        time += watch.lap() - arrivals;
+        state.times.distances += arrivals;
+    };
     auto const culprit = evaluate_guarded(state.evaluate, feed);
-    state.times.evaluation += watch.lap();
+    book(state.times.evaluation);
     if (culprit) {
         state.give_up();
         throw EvaluationFailure(feed.index(culprit->ticket), state.communicator.rank(), culprit->genome, culprit->reason);
     }
     feed.wait_for_others();
-    state.times.waiting += watch.lap();
+    book(state.times.waiting);
     if (feed.failure) {
         state.give_up();
         throw *feed.failure;

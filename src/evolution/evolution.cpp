@@ -1,5 +1,7 @@
 #include <lore/evolution/evolution.h>
 
+#include "pool_distances.h"
+
 #include <lore/core/stopwatch.h>
 
 #include <algorithm>
@@ -42,10 +44,10 @@ Newborns breed(Population const& parents, EvolutionConfig const& config, std::ui
     return born;
 }
 
-std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator) {
+std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Arrival const& arrival) {
     std::vector<Genome const*> genomes;
     for (auto const& birth : born) genomes.push_back(&birth->genome);
-    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes);
+    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, arrival);
     assert(evaluations.size() == born.size());
     std::vector<Individual> individuals;
     for (std::size_t k = 0; k < born.size(); ++k) {
@@ -65,18 +67,12 @@ Population join(Population parents, std::vector<Individual> children) {
     return parents;
 }
 
-/// Diversity of everybody within the pool. Distances among parents are known from the last generation, unless the
-/// distance itself has changed since.
-void measure_diversity(Population& pool, DistanceKind kind, Evaluator& evaluator) {
-    int const known = pool.distance_kind == kind ? pool.distances.size() : 0;
-    int const size = static_cast<int>(pool.members.size());
-    std::vector<Descriptors const*> descriptors;
-    for (Individual const& member : pool.members) descriptors.push_back(member.descriptors.get());
-    pool.distances = known > 0 ? pool.distances.extended(size - known) : DistanceMatrix(size);
+/// Diversity of everybody within the pool.
+void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances) {
+    pool.distances = std::move(distances);
     pool.distance_kind = kind;
-    evaluator.measure(kind, descriptors, known, pool.distances);
     std::vector<double> const diversity = pool.distances.means();
-    for (int i = 0; i < size; ++i) pool.members[i].diversity = diversity[i];
+    for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].diversity = diversity[i];
 }
 
 Objectives objectives_of(Individual const& individual, EvolutionConfig const& config) {
@@ -136,13 +132,18 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
             generation == 0 ? founders(config, seed) : breed(state.population, config, seed, generation);
         times.selection += watch.lap();
 
-        std::vector<Individual> children = evaluate(born, evaluator);
-        times.evaluation += watch.lap();
+        DistanceKind const kind = distance_at(seed, generation, config.diversity);
+        PoolDistances distances{state.population, static_cast<int>(born.size()), kind};
+        std::vector<Individual> children = evaluate(born, evaluator, [&](int child, Evaluation const& evaluation) {
+            Stopwatch arrived;
+            distances.arrive(child, evaluation.descriptors);
+            times.distances += arrived.lap();
+        });
+        times.evaluation += watch.lap() - times.distances;
 
         Population pool = join(std::move(state.population), std::move(children));
         pool.generation = generation;
-        DistanceKind const kind = distance_at(seed, generation, config.diversity);
-        measure_diversity(pool, kind, evaluator);
+        set_diversity(pool, kind, std::move(distances).finish(pool, evaluator));
         auto const judged = std::span<Individual const>{pool.members}.last(born.size());
         for (std::size_t k = 0; k < born.size(); ++k) born[k]->diversity = judged[k].diversity;
         times.distances += watch.lap();

@@ -44,9 +44,12 @@ TEST(Evolve, is_a_pure_function_of_configuration_and_seed) {
 }
 
 TEST(Evolve, does_not_depend_on_the_order_in_which_the_work_is_done) {
-    for (bool const shaping : {false, true}) {
-        EvolutionConfig config = small_config();
-        config.use_shaping = shaping;
+    EvolutionConfig many = small_config();   // so many that distances are measured while others are under way
+    many.population = 150;
+    many.founders = 200;
+    many.generations = 20;
+    for (EvolutionConfig config : {small_config(), many}) {
+        config.use_shaping = config.population == many.population;
         std::string const expected = signature_of(config, 3);
         EXPECT_EQ(signature_of(config, 3, SyntheticEvaluator::Order::backward), expected);
         EXPECT_EQ(signature_of(config, 3, SyntheticEvaluator::Order::shuffled), expected);

@@ -12,19 +12,25 @@
 namespace lore {
 
 /// Judges a genome by its genes alone, in no time: balls for some high biases, behaviour from the weights. Works
-/// through the batch in whatever order it is told to, as ranks would.
+/// through the batch in whatever order it is told to, as ranks would; unless that is the order of the request, it
+/// announces all but the last quarter.
 class SyntheticEvaluator : public Evaluator {
 public:
     enum class Order { forward, backward, shuffled };
     explicit SyntheticEvaluator(Order order = Order::forward) : order_(order) {}
 
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Arrival const& arrival = {}) override {
         std::vector<std::size_t> order(genomes.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         if (order_ == Order::backward) std::reverse(order.begin(), order.end());
         if (order_ == Order::shuffled) rng_.shuffle(std::span{order});
         std::vector<Evaluation> evaluations(genomes.size());
-        for (std::size_t const k : order) evaluations[k] = judge(*genomes[k]);
+        std::size_t done = 0;
+        for (std::size_t const k : order) {
+            evaluations[k] = judge(*genomes[k]);
+            if (arrival && order_ != Order::forward && ++done <= genomes.size() * 3 / 4)
+                arrival(static_cast<int>(k), evaluations[k]);
+        }
         evaluated_ += static_cast<int>(genomes.size());
         return evaluations;
     }
@@ -70,7 +76,7 @@ private:
 /// Nobody differs from anybody.
 class ConstantEvaluator : public Evaluator {
 public:
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Arrival const& = {}) override {
         Evaluation e;
         e.descriptors.balls = {{0, 0}};
         return std::vector<Evaluation>(genomes.size(), e);

@@ -31,7 +31,8 @@ private:
 
 /// Where a rank's time went [s].
 struct RankTimes {
-    double evaluation = 0, distances = 0;
+    double evaluation = 0;
+    double distances = 0;  ///< of rank 0 with all that it does about evaluations that arrive
     double waiting = 0;   ///< with nothing to do but poll; of rank 0 while a request was under way
 };
 
@@ -46,8 +47,9 @@ public:
     /// Stops the workers, unless broken().
     ~Farm() override;
 
-    /// Throws EvaluationFailure.
-    std::vector<Evaluation> evaluate(std::span<Genome const* const>) override;
+    /// Throws EvaluationFailure. Announces evaluations as long as other ranks are at work; who does much about them
+    /// takes fewer genomes himself, so that all ranks still run out together.
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) override;
     /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors' way.
     void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
 

@@ -51,12 +51,16 @@ bool larger(Genome const&, Genome const&);
 /// The same as evaluate_batch, until nothing is under way and the feed has no more.
 void evaluate_stream(EvaluationContext const&, EvaluationFeed&);
 
+/// Told that genomes[index] has been evaluated while others are still under way elsewhere: what is done about it now
+/// costs no time. The evaluation stays where it is until evaluate() returns.
+using Arrival = std::function<void(int index, Evaluation const&)>;
+
 /// Genomes in, evaluations out, whoever does the work. Evolution sees only this.
 class Evaluator {
 public:
     virtual ~Evaluator() = default;
-    /// evaluations[i] belongs to genomes[i].
-    virtual std::vector<Evaluation> evaluate(std::span<Genome const* const>) = 0;
+    /// evaluations[i] belongs to genomes[i]. Announces some of them early, in any order, or none.
+    virtual std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) = 0;
     /// Fills every pair (i, j) with i >= known, j < i. The default does it here; a farm shares the rows.
     virtual void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&);
 };
@@ -65,7 +69,8 @@ public:
 class SerialEvaluator : public Evaluator {
 public:
     explicit SerialEvaluator(EvaluationContext context) : context_(std::move(context)) {}
-    std::vector<Evaluation> evaluate(std::span<Genome const* const>) override;
+    /// Announces nothing: nobody else is at work.
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) override;
 
 private:
     EvaluationContext context_;

@@ -1,0 +1,49 @@
+#include "pool_distances.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace lore {
+
+namespace {
+
+/// Children are measured together: fewer would cost more each, more would leave more to the end.
+constexpr int enough = 48;
+
+} // namespace
+
+PoolDistances::PoolDistances(Population const& parents, int children, DistanceKind kind)
+    : kind_(kind), parents_(static_cast<int>(parents.members.size())),
+      measured_(parents.distance_kind == kind ? parents.distances.size() : 0) {
+    matrix_ = measured_ > 0 ? parents.distances.extended(children) : DistanceMatrix(parents_ + children);
+    order_.resize(static_cast<std::size_t>(parents_));
+    std::iota(order_.begin(), order_.end(), 0);
+    for (Individual const& parent : parents.members) shown_.push_back(parent.descriptors.get());
+}
+
+void PoolDistances::arrive(int child, Descriptors const& descriptors) {
+    order_.push_back(parents_ + child);
+    shown_.push_back(&descriptors);
+    int const present = static_cast<int>(shown_.size());
+    if (present - measured_ < enough) return;
+    measure_rows(kind_, shown_, measured_, present, matrix_);
+    measured_ = present;
+}
+
+DistanceMatrix PoolDistances::finish(Population const& pool, Evaluator& evaluator) && {
+    assert(static_cast<int>(pool.members.size()) == matrix_.size());
+    std::vector<int> place(pool.members.size(), -1);   // of a member in order_
+    for (std::size_t k = 0; k < order_.size(); ++k) place[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+    for (std::size_t member = 0; member < place.size(); ++member)
+        if (place[member] < 0) {
+            place[member] = static_cast<int>(order_.size());
+            order_.push_back(static_cast<int>(member));
+        }
+    shown_.clear();
+    for (int const member : order_) shown_.push_back(pool.members[static_cast<std::size_t>(member)].descriptors.get());
+    evaluator.measure(kind_, shown_, measured_, matrix_);
+    return std::is_sorted(order_.begin(), order_.end()) ? std::move(matrix_) : matrix_.select(place);
+}
+
+} // namespace lore
