@@ -51,35 +51,23 @@ TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_
     EXPECT_EQ(base.provenance().individuals, lineage_of(*best).size());
 }
 
-TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_in_order_of_birth) {
+TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_of_birth) {
     Scratch const scratch;
     test::write_small_run(scratch.path());
     RunDirectory const run = open_run(scratch.path());
     KnowledgeConfig const config = run.config.knowledge;
-    KnowledgeBuilder plain{config, make_scan_index(config)};
-    for_each_individual(run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
-        Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
-        plain.add_individual(windows_of(trace, config.window_length), individual.balls);
-    });
-    EXPECT_EQ(plain.individuals(), 16u + 6 * 8);
-    EXPECT_EQ(archived_individuals(run), plain.individuals());
-    expect_equal(knowledge_of_all(run, 1, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
-}
-
-TEST(KnowledgeOfAll, can_do_with_every_fifth_from_the_first_on) {
-    Scratch const scratch;
-    test::write_small_run(scratch.path());
-    RunDirectory const run = open_run(scratch.path());
-    KnowledgeConfig const config = run.config.knowledge;
-    KnowledgeBuilder plain{config, make_scan_index(config)};
-    int number = 0;
-    for_each_individual(run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
-        if (number++ % 5 != 0) return;
-        Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
-        plain.add_individual(windows_of(trace, config.window_length), individual.balls);
-    });
-    EXPECT_EQ(plain.individuals(), 13u);   // of 64
-    expect_equal(knowledge_of_all(run, 5, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
+    EXPECT_EQ(archived_individuals(run), 16u + 6 * 8);
+    for (int const every : {1, 5}) {
+        KnowledgeBuilder plain{config, make_scan_index(config)};
+        int number = 0;
+        for_each_individual(run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
+            if (number++ % every != 0) return;
+            Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
+            plain.add_individual(windows_of(trace, config.window_length), individual.balls);
+        });
+        EXPECT_EQ(plain.individuals(), every == 1 ? 64u : 13u);
+        expect_equal(knowledge_of_all(run, every, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
+    }
 }
 
 TEST(KnowledgeOfAll, says_what_is_missing_where_the_run_did_not_keep_everybody) {

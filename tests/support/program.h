@@ -1,6 +1,12 @@
 #pragma once
 
+#include "support/scratch.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -29,5 +35,34 @@ inline Ran run_program(std::string const& command, std::string const& scratch) {
     ran.errors.assign(std::istreambuf_iterator<char>{errors}, {});
     return ran;
 }
+
+/// Tests of one of Lore's programs, which runs in a directory of its own.
+class ProgramTest : public ::testing::Test {
+protected:
+    explicit ProgramTest(std::string program) : program_(std::move(program)) {}
+
+    Ran run(std::string const& arguments) {
+        return run_program("cd " + scratch.path() + " && " + program_ + " " + arguments, scratch.path());
+    }
+    void expect_done(std::string const& arguments) {
+        Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, 0) << arguments << ": " << ran.errors;
+    }
+    /// One line on stderr, that exit code, no other output, and the file or directory "never" not written.
+    void expect_refusal(std::string const& arguments, int exit_code, std::string const& saying) {
+        Ran const ran = run(arguments);
+        EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+        EXPECT_THAT(ran.errors, ::testing::StartsWith(std::filesystem::path{program_}.filename().string() + ": "));
+        EXPECT_THAT(ran.errors, ::testing::HasSubstr(saying));
+        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+        EXPECT_EQ(ran.output, "");
+        EXPECT_FALSE(std::filesystem::exists(scratch.file("never")));
+    }
+
+    Scratch scratch;
+
+private:
+    std::string program_;
+};
 
 } // namespace lore::test

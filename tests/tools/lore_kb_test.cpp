@@ -1,5 +1,4 @@
 #include "support/program.h"
-#include "support/scratch.h"
 #include "support/small_run.h"
 
 #include <lore/archive/knowledge_file.h>
@@ -19,34 +18,16 @@ using ::testing::StartsWith;
 namespace {
 
 /// A run of its own, and lore-kb in its directory.
-class LoreKb : public ::testing::Test {
+class LoreKb : public test::ProgramTest {
 protected:
-    LoreKb() { test::write_small_run(scratch.file("run")); }
+    LoreKb() : ProgramTest(LORE_KB) { test::write_small_run(scratch.file("run")); }
 
-    test::Ran run(std::string const& arguments) {
-        return test::run_program("cd " + scratch.path() + " && " LORE_KB " " + arguments, scratch.path());
-    }
-    void expect_done(std::string const& arguments) {
-        test::Ran const ran = run(arguments);
-        EXPECT_EQ(ran.exit_code, 0) << arguments << ": " << ran.errors;
-    }
-    /// One line on stderr, that exit code, and no other output.
-    void expect_refusal(std::string const& arguments, int exit_code, std::string const& saying) {
-        test::Ran const ran = run(arguments);
-        EXPECT_EQ(ran.exit_code, exit_code) << arguments;
-        EXPECT_THAT(ran.errors, StartsWith("lore-kb: "));
-        EXPECT_THAT(ran.errors, HasSubstr(saying));
-        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
-        EXPECT_EQ(ran.output, "");
-    }
     std::vector<std::string> lines_of(std::string const& file) {
         std::ifstream stream{scratch.file(file)};
         std::vector<std::string> lines;
         for (std::string line; std::getline(stream, line);) lines.push_back(line);
         return lines;
     }
-
-    Scratch scratch;
 };
 
 } // namespace

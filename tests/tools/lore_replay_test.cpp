@@ -1,5 +1,4 @@
 #include "support/program.h"
-#include "support/scratch.h"
 #include "support/small_run.h"
 
 #include <lore/archive/trace_file.h>
@@ -16,25 +15,9 @@ using ::testing::StartsWith;
 
 namespace {
 
-class LoreReplay : public ::testing::Test {
+class LoreReplay : public test::ProgramTest {
 protected:
-    test::Ran run(std::string const& arguments) {
-        return test::run_program("cd " + scratch.path() + " && " LORE_REPLAY " " + arguments, scratch.path());
-    }
-    void expect_done(std::string const& arguments) {
-        test::Ran const ran = run(arguments);
-        EXPECT_EQ(ran.exit_code, 0) << arguments << ": " << ran.errors;
-    }
-    /// One line on stderr, that exit code, no other output, and nothing written.
-    void expect_refusal(std::string const& arguments, int exit_code, std::string const& saying) {
-        test::Ran const ran = run(arguments);
-        EXPECT_EQ(ran.exit_code, exit_code) << arguments;
-        EXPECT_THAT(ran.errors, StartsWith("lore-replay: "));
-        EXPECT_THAT(ran.errors, HasSubstr(saying));
-        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
-        EXPECT_EQ(ran.output, "");
-        EXPECT_FALSE(std::filesystem::exists(scratch.file("never")));
-    }
+    LoreReplay() : ProgramTest(LORE_REPLAY) {}
     std::string content(std::string const& file) {
         std::ifstream stream{scratch.file(file), std::ios::binary};
         return {std::istreambuf_iterator<char>{stream}, {}};
@@ -42,8 +25,6 @@ protected:
     void write(std::string const& file, std::string const& text) {
         std::ofstream{scratch.file(file), std::ios::binary} << text;
     }
-
-    Scratch scratch;
 };
 
 } // namespace
