@@ -2,6 +2,7 @@
 
 #include <lore/core/error.h>
 #include <lore/experiment/config.h>
+#include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
 #include <lore/figure/trajectory.h>
 #include <lore/statistics/quantiles.h>
@@ -29,19 +30,17 @@ struct Frame {
     double y(double value) const { return bottom - (bottom - top) * value / y_most; }
 };
 
-/// 1, 2 or 5 times a power of ten, so that about `wanted` ticks fit; whole, since balls and generations are counted.
-double tick_step(double most, int wanted) {
-    double const rough = most / wanted, power = std::pow(10.0, std::floor(std::log10(rough)));
-    for (double const factor : {1.0, 2.0, 5.0})
-        if (factor * power >= rough * 0.999) return std::max(1.0, factor * power);
-    return std::max(1.0, 10 * power);
+/// Round numbers from 0 to `most`; only whole ones, since balls and generations are counted.
+std::vector<double> whole_ticks(double most) {
+    std::vector<double> places = ticks(0, most, 8);
+    std::erase_if(places, [](double place) { return place != std::round(place); });
+    return places;
 }
 
 void draw_ball_axis(SvgDocument& svg, Frame const& frame, std::string_view what) {
-    double const step = tick_step(frame.y_most, 8);
-    for (double tick = 0; tick <= frame.y_most + 1e-9; tick += step) {
+    for (double const tick : whole_ticks(frame.y_most)) {
         if (tick > 0) svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
-        svg.text({frame.left - 8, frame.y(tick) + 4}, fmt::format("{}", tick), {.anchor = Anchor::end});
+        svg.text({frame.left - 8, frame.y(tick) + 4}, tick_label(tick), {.anchor = Anchor::end});
     }
     svg.line({frame.left, frame.top}, {frame.left, frame.bottom}, {.stroke = ink});
     svg.line({frame.left, frame.bottom}, {frame.right, frame.bottom}, {.stroke = ink});
@@ -162,10 +161,9 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
 
     SvgDocument svg{840, 476, "Mean number of collected balls of the best-of-run by generation"};
     draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
-    double const step = tick_step(frame.x_most, 8);
-    for (double tick = 0; tick <= frame.x_most + 1e-9; tick += step) {
+    for (double const tick : whole_ticks(frame.x_most)) {
         svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
-        svg.text({frame.x(tick), frame.bottom + 20}, fmt::format("{}", tick), {.anchor = Anchor::middle});
+        svg.text({frame.x(tick), frame.bottom + 20}, tick_label(tick), {.anchor = Anchor::middle});
     }
     svg.text({(frame.left + frame.right) / 2, frame.bottom + 44}, "generation", {.anchor = Anchor::middle});
 

@@ -1,4 +1,4 @@
-#include "axis.h"
+#include <lore/figure/axis.h>
 
 #include <cmath>
 

@@ -1,7 +1,6 @@
 #include <lore/figure/trajectory.h>
 
-#include "axis.h"
-
+#include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
 
 #include <algorithm>
