@@ -325,7 +325,7 @@ private:
             double const left = task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
             lines.push_back(fmt::format("  {:<22} {} {:>6}/{}  best {} {} {}", task.step.name,
                                         bar(static_cast<double>(task.generation) / task.generations, 20), task.generation, task.generations,
-                                        task.best_balls, task.best_balls == 1 ? "ball " : "balls", left > 0 ? " " + duration_text(left) + " left" : ""));
+                                        task.best_balls, task.best_balls == 1 ? "ball " : "balls", left > 0 ? fmt::format(" {} left", duration_text(left)) : ""));
         }
         lines.push_back(overall());
         board_.draw(std::move(lines));

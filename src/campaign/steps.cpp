@@ -141,7 +141,7 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
             KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
             std::uint64_t const seed = choice == nullptr ? 0 : seed_of(plan.source, choice->of(base.name).run);
             auto command = evolve_command(plan, launcher, plan.source, seed, directory.run(step.name));
-            if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = "?";
+            if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = std::string{"?"};
             command.insert(command.end(), {"--archive", "all"});
             return command;
         }
