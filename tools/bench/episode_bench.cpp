@@ -35,15 +35,16 @@ void count_steps(benchmark::State& state, std::size_t episodes) {
         steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void batch_in_lanes(benchmark::State& state, Isa isa, int edges, int hidden) {
+void batch_in_lanes(benchmark::State& state, Isa isa, int edges, int hidden, std::size_t size) {
     std::vector<Genome> const genomes = grown(edges, hidden);
     std::vector<Genome const*> pointers;
     for (Genome const& genome : genomes) pointers.push_back(&genome);
+    pointers.resize(size);
     Isa const before = active_isa();
     use_isa(isa);
     for (auto _ : state) benchmark::DoNotOptimize(evaluate_batch(evolved_state().context, pointers));
     use_isa(before);
-    count_steps(state, genomes.size());
+    count_steps(state, size);
 }
 
 void plain_episode(benchmark::State& state, int edges, int hidden) {
@@ -64,9 +65,14 @@ bool const registered = [] {
         for (int isa = 0; isa <= static_cast<int>(detected_isa()); ++isa)
             benchmark::RegisterBenchmark(
                 ("episode/batch_of_200/" + name_of_size + "/" + std::string{name(static_cast<Isa>(isa))}).c_str(),
-                batch_in_lanes, static_cast<Isa>(isa), size.edges, size.hidden)
+                batch_in_lanes, static_cast<Isa>(isa), size.edges, size.hidden, std::size_t{200})
                 ->Unit(benchmark::kMillisecond);
     }
+    // What is left of the lanes' gain where a rank has fewer individuals than lanes.
+    for (std::size_t batch : {1, 4, 8, 12, 16, 24, 32, 48, 64, 100})
+        benchmark::RegisterBenchmark(("episode/batch_of_" + std::to_string(batch) + "/40_connections").c_str(), batch_in_lanes,
+                                     detected_isa(), 40, 2, batch)
+            ->Unit(benchmark::kMillisecond);
     return true;
 }();
 

@@ -1,5 +1,5 @@
-// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of the source
-// task.
+// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of 200, everything
+// included, of the source task and of the target task with a knowledge base of about 24 000 features.
 #include "evolved_state.h"
 
 #include <lore/evolution/pareto.h>
@@ -50,8 +50,8 @@ void ranking(benchmark::State& state) {
 }
 BENCHMARK(ranking)->Name("evolution/ranking_400x3")->Unit(benchmark::kMicrosecond);
 
-void generation_of_the_source_task(benchmark::State& state, DistanceKind kind) {
-    EvolvedState const& evolved = evolved_state();
+void whole_generation(benchmark::State& state, EvolvedState const& (*population)(), DistanceKind kind) {
+    EvolvedState const& evolved = population();
     EvolutionConfig config = evolved.config;
     config.generations += 1000000;
     config.diversity.distances = {kind};
@@ -65,8 +65,10 @@ void generation_of_the_source_task(benchmark::State& state, DistanceKind kind) {
 bool const registered = [] {
     for (int k = 0; k < distance_kinds; ++k) {
         auto const kind = static_cast<DistanceKind>(k);
-        benchmark::RegisterBenchmark(("evolution/generation/source/" + std::string{name(kind)}).c_str(),
-                                     generation_of_the_source_task, kind)
+        std::string const kind_name{name(kind)};
+        benchmark::RegisterBenchmark(("evolution/generation/source/" + kind_name).c_str(), whole_generation, evolved_state, kind)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("evolution/generation/target/" + kind_name).c_str(), whole_generation, evolved_with_knowledge, kind)
             ->Unit(benchmark::kMillisecond);
     }
     return true;

@@ -1,5 +1,7 @@
 #include "evolved_state.h"
 
+#include "learned_base.h"
+
 namespace lore {
 
 std::vector<Descriptors const*> EvolvedState::descriptors() const {
@@ -8,20 +10,30 @@ std::vector<Descriptors const*> EvolvedState::descriptors() const {
     return pointers;
 }
 
+EvolvedState evolve_for(int generations, std::uint64_t seed, EvaluationContext context, EvolutionConfig config) {
+    EvolvedState e{std::move(context), config, {}, {}};
+    e.config.generations = generations;
+    SerialEvaluator evaluator{e.context};
+    std::vector<Individual> parents;
+    e.state = evolve(e.config, seed, evaluator, {}, [&](GenerationReport const& report) {
+        e.pool = std::move(parents);
+        e.pool.insert(e.pool.end(), report.born.begin(), report.born.end());
+        parents = report.state->population.members;
+        return true;
+    });
+    return e;
+}
+
 EvolvedState const& evolved_state() {
+    static EvolvedState const evolved = evolve_for(100, 1, {load_arena("collectball", "source"), {}, std::nullopt});
+    return evolved;
+}
+
+EvolvedState const& evolved_with_knowledge() {
     static EvolvedState const evolved = [] {
-        EvolvedState e;
-        e.context.arena = load_arena("collectball", "source");
-        e.config.generations = 100;
-        SerialEvaluator evaluator{e.context};
-        std::vector<Individual> parents;
-        e.state = evolve(e.config, 1, evaluator, {}, [&](GenerationReport const& report) {
-            e.pool = std::move(parents);
-            e.pool.insert(e.pool.end(), report.born.begin(), report.born.end());
-            parents = report.state->population.members;
-            return true;
-        });
-        return e;
+        EvolutionConfig config;
+        config.use_shaping = true;
+        return evolve_for(50, 1, {load_arena("collectball", "target"), {}, Shaper{learned_base()}}, config);
     }();
     return evolved;
 }

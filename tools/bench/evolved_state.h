@@ -15,6 +15,12 @@ struct EvolvedState {
     std::vector<Descriptors const*> descriptors() const;
 };
 
+/// From the founders of that seed.
+EvolvedState evolve_for(int generations, std::uint64_t seed, EvaluationContext, EvolutionConfig = {});
+
+/// Source task, 100 generations.
 EvolvedState const& evolved_state();
+/// Target task, 50 generations shaped by the learned base (learned_base.h).
+EvolvedState const& evolved_with_knowledge();
 
 } // namespace lore

@@ -1,69 +1,21 @@
-// Knowledge: building a base and asking for the nearest feature, the exact index beside the scan that defines it and
-// FLANN's forest, on windows of evolved individuals.
+// Knowledge: building a base of about 24 000 features from 120 000 windows, and asking it for the nearest feature: the
+// exact index beside the scan that defines it and FLANN's forest. `window` is the time of one window.
+//
+// Questions are the windows of one generation's children, in a target run that the base shapes. `exact` is asked by a
+// search that has answered for their parents before, as in a run; `exact_cold` by one that has just been made.
 #include "evolved_state.h"
+#include "learned_base.h"
 
 #include <lore/core/isa.h>
-#include <lore/evolution/lineage.h>
-#include <lore/knowledge/builder.h>
 #include <lore/knowledge/shaping.h>
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <string>
 
 namespace lore {
 
 namespace {
-
-constexpr std::size_t most_ancestors = 600;   // 120 000 windows, the length of a long lineage
-
-struct Lives {
-    std::vector<Trace> traces;
-    std::vector<int> balls;
-    std::vector<std::vector<Window>> windows;   ///< [individual]
-
-    Lives(EvolvedState const& evolved, std::vector<Birth const*> const& individuals) {
-        for (Birth const* individual : individuals) {
-            traces.push_back(record_episode(evolved.context.arena, compile(individual->genome), evolved.context.episode));
-            balls.push_back(individual->balls);
-        }
-        for (Trace const& trace : traces) windows.push_back(windows_of(trace, KnowledgeConfig{}.window_length));
-    }
-};
-
-/// Those a base is built from: ancestors of the population, the youngest first.
-Lives const& ancestors() {
-    static Lives const lives{evolved_state(), [] {
-        std::vector<Birth const*> all = ancestors_of(evolved_state().state.population.members);
-        std::reverse(all.begin(), all.end());
-        all.resize(std::min(all.size(), most_ancestors));
-        return all;
-    }()};
-    return lives;
-}
-
-/// Those that are compared with it: the last generation's children.
-Lives const& children() {
-    static Lives const lives{evolved_state(), [] {
-        std::vector<Birth const*> born;
-        auto const& pool = evolved_state().pool;
-        for (std::size_t i = pool.size() / 2; i < pool.size(); ++i) born.push_back(pool[i].birth.get());
-        return born;
-    }()};
-    return lives;
-}
-
-KnowledgeBase build_with(std::unique_ptr<FeatureIndex> index) {
-    KnowledgeBuilder builder{{}, std::move(index)};
-    for (std::size_t i = 0; i < ancestors().windows.size(); ++i) builder.add_individual(ancestors().windows[i], ancestors().balls[i]);
-    return std::move(builder).finish({});
-}
-
-KnowledgeBase const& base() {
-    static KnowledgeBase const built = build_with(make_exact_index({}));
-    return built;
-}
 
 using Maker = std::unique_ptr<FeatureIndex> (*)();
 
@@ -72,65 +24,116 @@ std::unique_ptr<FeatureIndex> exact() { return make_exact_index({}); }
 std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index({}, 4, 32); }
 std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index({}, 4, 128); }
 
+/// Of the last joint pool of the target run: the parents, or the children.
+Lives lives_of_half(std::size_t half) {
+    EvolvedState const& evolved = evolved_with_knowledge();
+    std::vector<Birth const*> births;
+    std::size_t const size = evolved.pool.size() / 2;
+    for (std::size_t i = half * size; i < (half + 1) * size; ++i) births.push_back(evolved.pool[i].birth.get());
+    return {evolved.context.arena, evolved.context.episode, births};
+}
+Lives const& parents() {
+    static Lives const lives = lives_of_half(0);
+    return lives;
+}
+Lives const& children() {
+    static Lives const lives = lives_of_half(1);
+    return lives;
+}
+
+std::vector<Window> every(std::size_t stride, Lives const& lives) {
+    std::vector<Window> windows;
+    std::size_t number = 0;
+    for (auto const& of_one : lives.windows)
+        for (Window const& window : of_one)
+            if (number++ % stride == 0) windows.push_back(window);
+    return windows;
+}
+
+void count_windows(benchmark::State& state, std::size_t windows) {
+    // The inverse of a rate is shown as the time of one.
+    state.counters["window"] = benchmark::Counter(
+        static_cast<double>(windows), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void build(benchmark::State& state, Maker make, Isa isa) {
     Isa const before = active_isa();
     use_isa(isa);
-    ancestors();
+    teachers();
     int features = 0;
-    for (auto _ : state) features = build_with(make()).size();
+    for (auto _ : state) features = build_base(usual_teachers, make()).size();
     use_isa(before);
     state.counters["features"] = features;
-    state.counters["windows"] = benchmark::Counter(static_cast<double>(ancestors().windows.size() * ancestors().windows[0].size()),
-                                                   benchmark::Counter::kIsIterationInvariantRate);
+    count_windows(state, usual_teachers * teachers().windows[0].size());
 }
 
-void query(benchmark::State& state, Maker make, Isa isa) {
+struct Asking {
+    std::size_t stride = 1;   ///< every how manyth window is asked for: slow indices answer fewer
+    bool warm = false;
+    int teachers = usual_teachers;
+};
+
+void query(benchmark::State& state, Maker make, Isa isa, Asking asking) {
     Isa const before = active_isa();
     use_isa(isa);
-    auto const index = make();
-    for (int feature = 0; feature < base().size(); ++feature) index->add(base().window(feature));
-    auto const search = index->search();
-    std::size_t individual = 0, asked = 0, found = 0;
-    auto const& lives = children().windows;
-    for (auto _ : state) {   // an individual at a time
-        for (Window const& window : lives[individual % lives.size()]) found += search->match(window).found();
-        asked += lives[individual % lives.size()].size();
-        ++individual;
+    std::vector<Window> const questions = every(asking.stride, children()), earlier = every(asking.stride, parents());
+    KnowledgeBase const base = asking.teachers == usual_teachers ? learned_base() : build_base(asking.teachers, exact());
+    auto const filled = [&](std::unique_ptr<FeatureIndex> index) {
+        for (int feature = 0; feature < base.size(); ++feature) index->add(base.window(feature));
+        return index;
+    };
+    auto const index = filled(make());
+    std::size_t found = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        auto const search = index->search();
+        if (asking.warm)
+            for (Window const& window : earlier) benchmark::DoNotOptimize(search->match(window));
+        found = 0;
+        state.ResumeTiming();
+        for (Window const& window : questions) found += search->match(window).found();
     }
 
-    // Recall, of those who were asked for, against the exact answers.
-    auto const truth_index = exact();
-    for (int feature = 0; feature < base().size(); ++feature) truth_index->add(base().window(feature));
+    auto const truth_index = filled(exact());
     auto const truth = truth_index->search();
     std::size_t true_matches = 0;
-    for (std::size_t i = 0; i < individual; ++i)
-        for (Window const& window : lives[i % lives.size()]) true_matches += truth->match(window).found();
+    for (Window const& window : questions) true_matches += truth->match(window).found();
     use_isa(before);
-    state.counters["features"] = base().size();
+    state.counters["features"] = base.size();
     state.counters["recall"] = static_cast<double>(found) / static_cast<double>(true_matches);
-    state.counters["s/window"] = benchmark::Counter(static_cast<double>(asked), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    count_windows(state, questions.size());
 }
 
+/// What evaluation asks: only for features worth more than the best so far.
 void shaping(benchmark::State& state) {
-    Shaper const shaper{base()};
-    auto reader = shaper.reader();
-    std::size_t individual = 0;
-    auto const& lives = children().windows;
-    for (auto _ : state) benchmark::DoNotOptimize(reader.shaping(lives[individual++ % lives.size()]));
+    for (auto _ : state) {
+        state.PauseTiming();
+        Shaper const shaper{learned_base()};
+        auto reader = shaper.reader();
+        for (auto const& windows : parents().windows) benchmark::DoNotOptimize(reader.shaping(windows));
+        state.ResumeTiming();
+        for (auto const& windows : children().windows) benchmark::DoNotOptimize(reader.shaping(windows));
+    }
+    count_windows(state, children().windows.size() * children().windows[0].size());
 }
 
 bool const registered = [] {
-    for (int i = 0; i <= static_cast<int>(detected_isa()); ++i) {
+    Isa const best = detected_isa();
+    for (int i = 0; i <= static_cast<int>(best); ++i) {
         Isa const isa = static_cast<Isa>(i);
         std::string const set{name(isa)};
         benchmark::RegisterBenchmark(("knowledge/build/exact/" + set).c_str(), build, exact, isa)->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark(("knowledge/query/exact/" + set).c_str(), query, exact, isa)->Unit(benchmark::kMicrosecond);
+        benchmark::RegisterBenchmark(("knowledge/query/exact/" + set).c_str(), query, exact, isa, Asking{1, true})->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("knowledge/query/exact_cold/" + set).c_str(), query, exact, isa, Asking{})->Unit(benchmark::kMillisecond);
     }
-    benchmark::RegisterBenchmark("knowledge/build/flann_4x128", build, flann_128, detected_isa())->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, detected_isa())->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, detected_isa())->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, detected_isa())->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark("knowledge/shaping/individual", shaping)->Unit(benchmark::kMicrosecond);
+    for (int individuals : {75, 150, 300, 900})
+        benchmark::RegisterBenchmark(("knowledge/query/exact_of_" + std::to_string(individuals) + "_individuals").c_str(), query, exact, best,
+                                     Asking{1, true, individuals})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/build/flann_4x128", build, flann_128, best)->Unit(benchmark::kMillisecond)->Iterations(1);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, best, Asking{20})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, best, Asking{20})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{400})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/shaping", shaping)->Unit(benchmark::kMillisecond);
     return true;
 }();
 
