@@ -130,9 +130,9 @@ bool const registered = [] {
         benchmark::RegisterBenchmark(("knowledge/query/exact_of_" + std::to_string(individuals) + "_individuals").c_str(), query, exact, best,
                                      Asking{1, true, individuals})->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("knowledge/build/flann_4x128", build, flann_128, best)->Unit(benchmark::kMillisecond)->Iterations(1);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, best, Asking{20})->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, best, Asking{20})->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{400})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, best, Asking{50})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, best, Asking{50})->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{2000})->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("knowledge/shaping", shaping)->Unit(benchmark::kMillisecond);
     return true;
 }();
