@@ -31,8 +31,8 @@ std::vector<Genome> grown(int edges, int hidden) {
 void count_steps(benchmark::State& state, std::size_t episodes) {
     double const steps = static_cast<double>(episodes) * evolved_state().context.episode.steps;
     // The inverse of a rate is shown as the time of one.
-    state.counters["step"] = benchmark::Counter(
-        steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["step"] =
+        benchmark::Counter(steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void batch_in_lanes(benchmark::State& state, Isa isa, int edges, int hidden, std::size_t size) {
@@ -56,7 +56,9 @@ void plain_episode(benchmark::State& state, int edges, int hidden) {
 }
 
 bool const registered = [] {
-    struct Size { int edges, hidden; };
+    struct Size {
+        int edges, hidden;
+    };
     for (Size size : {Size{40, 2}, Size{200, 10}}) {
         std::string name_of_size = std::to_string(size.edges);
         name_of_size += "_connections";
@@ -70,8 +72,8 @@ bool const registered = [] {
     }
     // What is left of the lanes' gain where a rank has fewer individuals than lanes.
     for (std::size_t batch : {1, 4, 8, 12, 16, 24, 32, 48, 64, 100})
-        benchmark::RegisterBenchmark(("episode/batch_of_" + std::to_string(batch) + "/40_connections").c_str(), batch_in_lanes,
-                                     detected_isa(), 40, 2, batch)
+        benchmark::RegisterBenchmark(("episode/batch_of_" + std::to_string(batch) + "/40_connections").c_str(),
+                                     batch_in_lanes, detected_isa(), 40, 2, batch)
             ->Unit(benchmark::kMillisecond);
     return true;
 }();

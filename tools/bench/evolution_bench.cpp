@@ -1,5 +1,5 @@
-// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of 200, everything
-// included, of the source task and of the target task with a knowledge base of about 24 000 features.
+// NSGA-II: sorting, crowding and the cut of a joint pool of 400 by three objectives; a whole generation of 200,
+// everything included, of the source task and of the target task with a knowledge base of about 24 000 features.
 #include "evolved_state.h"
 
 #include <lore/evolution/pareto.h>
@@ -58,7 +58,7 @@ void whole_generation(benchmark::State& state, EvolvedState const& (*population)
     SerialEvaluator evaluator{evolved.context};
     EvolutionState now = evolved.state;
     auto const one = [](GenerationReport const&) { return false; };
-    now = evolve(config, 1, evaluator, std::move(now), one);   // the change of distance is measured apart
+    now = evolve(config, 1, evaluator, std::move(now), one); // the change of distance is measured apart
     for (auto _ : state) now = evolve(config, 1, evaluator, std::move(now), one);
 }
 
@@ -66,9 +66,11 @@ bool const registered = [] {
     for (int k = 0; k < distance_kinds; ++k) {
         auto const kind = static_cast<DistanceKind>(k);
         std::string const kind_name{name(kind)};
-        benchmark::RegisterBenchmark(("evolution/generation/source/" + kind_name).c_str(), whole_generation, evolved_state, kind)
+        benchmark::RegisterBenchmark(("evolution/generation/source/" + kind_name).c_str(), whole_generation,
+                                     evolved_state, kind)
             ->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark(("evolution/generation/target/" + kind_name).c_str(), whole_generation, evolved_with_knowledge, kind)
+        benchmark::RegisterBenchmark(("evolution/generation/target/" + kind_name).c_str(), whole_generation,
+                                     evolved_with_knowledge, kind)
             ->Unit(benchmark::kMillisecond);
     }
     return true;

@@ -19,10 +19,18 @@ namespace {
 
 using Maker = std::unique_ptr<FeatureIndex> (*)();
 
-std::unique_ptr<FeatureIndex> scan() { return make_scan_index({}); }
-std::unique_ptr<FeatureIndex> exact() { return make_exact_index({}); }
-std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index({}, 4, 32); }
-std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index({}, 4, 128); }
+std::unique_ptr<FeatureIndex> scan() {
+    return make_scan_index({});
+}
+std::unique_ptr<FeatureIndex> exact() {
+    return make_exact_index({});
+}
+std::unique_ptr<FeatureIndex> flann_32() {
+    return make_flann_index({}, 4, 32);
+}
+std::unique_ptr<FeatureIndex> flann_128() {
+    return make_flann_index({}, 4, 128);
+}
 
 /// Of the last joint pool of the target run: the parents, or the children.
 Lives lives_of_half(std::size_t half) {
@@ -68,7 +76,7 @@ void build(benchmark::State& state, Maker make, Isa isa) {
 }
 
 struct Asking {
-    std::size_t stride = 1;   ///< every how manyth window is asked for: slow indices answer fewer
+    std::size_t stride = 1; ///< every how manyth window is asked for: slow indices answer fewer
     bool warm = false;
     int teachers = usual_teachers;
 };
@@ -77,7 +85,8 @@ void query(benchmark::State& state, Maker make, Isa isa, Asking asking) {
     Isa const before = active_isa();
     use_isa(isa);
     std::vector<Window> const questions = every(asking.stride, children()), earlier = every(asking.stride, parents());
-    KnowledgeBase const base = asking.teachers == usual_teachers ? learned_base() : build_base(asking.teachers, exact());
+    KnowledgeBase const base =
+        asking.teachers == usual_teachers ? learned_base() : build_base(asking.teachers, exact());
     auto const filled = [&](std::unique_ptr<FeatureIndex> index) {
         for (int feature = 0; feature < base.size(); ++feature) index->add(base.window(feature));
         return index;
@@ -122,17 +131,27 @@ bool const registered = [] {
     for (int i = 0; i <= static_cast<int>(best); ++i) {
         Isa const isa = static_cast<Isa>(i);
         std::string const set{name(isa)};
-        benchmark::RegisterBenchmark(("knowledge/build/exact/" + set).c_str(), build, exact, isa)->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark(("knowledge/query/exact/" + set).c_str(), query, exact, isa, Asking{1, true})->Unit(benchmark::kMillisecond);
-        benchmark::RegisterBenchmark(("knowledge/query/exact_cold/" + set).c_str(), query, exact, isa, Asking{})->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("knowledge/build/exact/" + set).c_str(), build, exact, isa)
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("knowledge/query/exact/" + set).c_str(), query, exact, isa, Asking{1, true})
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(("knowledge/query/exact_cold/" + set).c_str(), query, exact, isa, Asking{})
+            ->Unit(benchmark::kMillisecond);
     }
     for (int individuals : {75, 150, 300, 900})
-        benchmark::RegisterBenchmark(("knowledge/query/exact_of_" + std::to_string(individuals) + "_individuals").c_str(), query, exact, best,
-                                     Asking{1, true, individuals})->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/build/flann_4x128", build, flann_128, best)->Unit(benchmark::kMillisecond)->Iterations(1);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, best, Asking{50})->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, best, Asking{50})->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{2000})->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(
+            ("knowledge/query/exact_of_" + std::to_string(individuals) + "_individuals").c_str(), query, exact, best,
+            Asking{1, true, individuals})
+            ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/build/flann_4x128", build, flann_128, best)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x32", query, flann_32, best, Asking{50})
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/flann_4x128", query, flann_128, best, Asking{50})
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{2000})
+        ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("knowledge/shaping", shaping)->Unit(benchmark::kMillisecond);
     return true;
 }();

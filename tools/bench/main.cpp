@@ -27,8 +27,10 @@ std::string_view take_option(std::string_view name, int& argc, char** argv) {
     int kept = 0;
     for (int i = 0; i < argc; ++i) {
         std::string_view const argument{argv[i]};
-        if (argument.starts_with(name)) value = argument.substr(name.size());
-        else argv[kept++] = argv[i];
+        if (argument.starts_with(name))
+            value = argument.substr(name.size());
+        else
+            argv[kept++] = argv[i];
     }
     argc = kept;
     return value;
@@ -38,7 +40,8 @@ int count_in(std::string_view text) {
     int count = 0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     if (error != std::errc{} || end != text.data() + text.size() || count < 1)
-        throw lore::UsageError(fmt::format("--individuals={} is not understood", text), "it is no number above 0", "Give one such as 600.");
+        throw lore::UsageError(fmt::format("--individuals={} is not understood", text), "it is no number above 0",
+                               "Give one such as 600.");
     return count;
 }
 

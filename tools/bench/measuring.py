@@ -39,8 +39,8 @@ def refuse_if_busy(anyway):
         return ""
     load = os.getloadavg()[0]
     if not anyway:
-        raise Refusal(f"the machine is busy ({at_work:.1f} of {os.cpu_count()} processors at work, load average {load:.1f}; "
-                      "figures would say little). Wait until it is idle, or add --busy-anyway.")
+        raise Refusal(f"the machine is busy ({at_work:.1f} of {os.cpu_count()} processors at work, load average "
+                      f"{load:.1f}; figures would say little). Wait until it is idle, or add --busy-anyway.")
     return f"**The machine was busy** ({at_work:.1f} of {os.cpu_count()} processors at work): trust ratios only."
 
 
@@ -51,8 +51,9 @@ def machine(build):
         found = re.search(pattern, version)
         return found.group(1) if found else "unknown"
     cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
-    return {"commit": find(r"\(commit (.*?)\)"), "compiler": find(r"compiled by (.*)"), "isa": find(r"instruction set (\w+)"),
-            "mpi": find(r"(Open MPI .*|MPICH .*)"), "cpu": cpu.group(1) if cpu else "unknown processor", "processors": os.cpu_count(),
+    return {"commit": find(r"\(commit (.*?)\)"), "compiler": find(r"compiled by (.*)"),
+            "isa": find(r"instruction set (\w+)"), "mpi": find(r"(Open MPI .*|MPICH .*)"),
+            "cpu": cpu.group(1) if cpu else "unknown processor", "processors": os.cpu_count(),
             "date": time.strftime("%Y-%m-%d")}
 
 
@@ -68,7 +69,8 @@ def described(where):
 def program(build, name):
     path = pathlib.Path(build) / "bin" / name
     if not path.exists():
-        raise Refusal(f"there is no {path} (it was not built). Build with -DLORE_BUILD_BENCHMARKS=ON, or name the folder with --build.")
+        raise Refusal(f"there is no {path} (it was not built). Build with -DLORE_BUILD_BENCHMARKS=ON, or "
+                      "name the folder with --build.")
     return str(path)
 
 
@@ -94,13 +96,14 @@ def run(command):
 
 
 def benchmarks(build, cases, repetitions, seconds):
-    """{case: {"time": [s], counter: [..]}}, one value a repetition. Times are of the processor, not of the wall, so that
-    they mean something on a machine that is not quite idle. Repetitions of different cases are mixed."""
-    command = [program(build, "lore-bench"), f"--benchmark_filter=^({'|'.join(cases)})$", f"--benchmark_repetitions={repetitions}",
-               f"--benchmark_min_time={seconds}", "--benchmark_enable_random_interleaving=true", "--benchmark_format=json"]
+    """{case: {"time": [s], counter: [..]}}, one value a repetition. Times are of the processor, not of the wall,
+    so that they mean something on a machine that is not quite idle. Repetitions of different cases are mixed."""
+    command = [program(build, "lore-bench"), f"--benchmark_filter=^({'|'.join(cases)})$",
+               f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={seconds}",
+               "--benchmark_enable_random_interleaving=true", "--benchmark_format=json"]
     to_seconds = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
-    known = {"name", "run_name", "cpu_time", "real_time", "iterations", "repetitions", "repetition_index", "threads", "family_index",
-             "per_family_instance_index"}
+    known = {"name", "run_name", "cpu_time", "real_time", "iterations", "repetitions", "repetition_index", "threads",
+             "family_index", "per_family_instance_index"}
     results = {}
     for one in json.loads(run(command).stdout)["benchmarks"]:
         if one["run_type"] != "iteration":
@@ -139,7 +142,8 @@ class Resident:
 
 
 def start_evolution(build, task, directory, *, ranks=1, generations=None, kb=None, settings=(), archive=None, seed=1):
-    command = [program(build, "lore-evolve"), str(SOURCE / "jobs" / f"{task}.toml"), "--seed", str(seed), "--out", directory]
+    config = SOURCE / "jobs" / f"{task}.toml"
+    command = [program(build, "lore-evolve"), str(config), "--seed", str(seed), "--out", directory]
     if generations is not None:
         settings = (f"evolution.generations={generations}", *settings)
     for setting in settings:
@@ -166,14 +170,15 @@ def read_evolution(command, process, directory):
     if table:
         columns = table.group(1).split()
         shares = [dict(zip(columns, map(float, line.split()[1:]))) for line in table.group(2).strip().split("\n")]
-    return {"generation": (seconds[-1] - seconds[0]) / (len(rows) - 1), "seconds": seconds[-1], "generations": len(rows) - 1,
-            "shares": shares, "signature": pathlib.Path(f"{directory}.out").read_text().split()[-1],
+    signature = pathlib.Path(f"{directory}.out").read_text().split()[-1]
+    return {"generation": (seconds[-1] - seconds[0]) / (len(rows) - 1), "seconds": seconds[-1],
+            "generations": len(rows) - 1, "shares": shares, "signature": signature,
             "best_balls": int(rows[-1]["best_balls"])}
 
 
 def evolve(build, task, **options):
-    """A whole run of lore-evolve. Tells also its largest resident memory, and `attention`: the share of the wall time that
-    one rank had a processor for, below 1 on a busy machine."""
+    """A whole run of lore-evolve. Tells also its largest resident memory, and `attention`: the share of the wall time
+    that one rank had a processor for, below 1 on a busy machine."""
     with tempfile.TemporaryDirectory() as scratch:
         directory = f"{scratch}/run"
         begin = time.monotonic()
@@ -187,8 +192,8 @@ def evolve(build, task, **options):
             time.sleep(0.01)
         process.returncode = os.waitstatus_to_exitcode(status)
         attention = min(1.0, (usage.ru_utime + usage.ru_stime) / (time.monotonic() - begin))
-        return read_evolution(command, process, directory) | {"resident": resident.most, "resident_files": resident.files,
-                                                              "attention": attention}
+        memory = {"resident": resident.most, "resident_files": resident.files}
+        return read_evolution(command, process, directory) | memory | {"attention": attention}
 
 
 def write_base(build, directory):
@@ -219,7 +224,8 @@ def put_between_marks(path, mark, text, otherwise):
         new = block.sub(lambda found: f"{found.group(1)}{text}\n{found.group(2)}", old)
     else:
         name = pathlib.Path(sys.argv[0]).name
-        new = f"{old.rstrip()}\n\n{otherwise.strip()}\n\n<!-- {mark}: begin (written by tools/{name}) -->\n{text}\n<!-- {mark}: end -->\n"
+        marked = f"<!-- {mark}: begin (written by tools/{name}) -->\n{text}\n<!-- {mark}: end -->\n"
+        new = f"{old.rstrip()}\n\n{otherwise.strip()}\n\n{marked}"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(new.lstrip())
 

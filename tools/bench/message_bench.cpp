@@ -12,7 +12,8 @@ namespace {
 
 void count(benchmark::State& state, std::size_t individuals, std::size_t bytes) {
     auto const number = static_cast<double>(individuals);
-    state.counters["individual"] = benchmark::Counter(number, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["individual"] =
+        benchmark::Counter(number, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["bytes"] = static_cast<double>(bytes) / number;
 }
 
