@@ -152,6 +152,15 @@ Farm::~Farm() {
 }
 
 std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes, Arrival const& arrival) {
+    try {
+        return evaluate_everywhere(genomes, arrival);
+    } catch (...) {
+        state_->give_up();   // whatever it was, other ranks may still be at work
+        throw;
+    }
+}
+
+std::vector<Evaluation> Farm::evaluate_everywhere(std::span<Genome const* const> genomes, Arrival const& arrival) {
     State& state = *state_;
     Stopwatch watch;
     OwnFeed feed{state, genomes, arrival};
@@ -162,16 +171,10 @@ std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes, A
     };
     auto const culprit = evaluate_guarded(state.evaluate, feed);
     book(state.times.evaluation);
-    if (culprit) {
-        state.give_up();
-        throw EvaluationFailure(feed.index(culprit->ticket), state.communicator.rank(), culprit->genome, culprit->reason);
-    }
+    if (culprit) throw EvaluationFailure(feed.index(culprit->ticket), state.communicator.rank(), culprit->genome, culprit->reason);
     feed.wait_for_others();
     book(state.times.waiting);
-    if (feed.failure) {
-        state.give_up();
-        throw *feed.failure;
-    }
+    if (feed.failure) throw *feed.failure;
     return std::move(feed.results);
 }
 

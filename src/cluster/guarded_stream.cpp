@@ -18,6 +18,7 @@ struct TestHooks {
     double longest_delay_ms = 0;
     long failing = -1;
     bool out_of_memory = false;
+    bool damaged_reply = false;
 };
 
 TestHooks hooks_from_environment(int rank) {
@@ -27,6 +28,7 @@ TestHooks hooks_from_environment(int rank) {
         char* rest = nullptr;
         if (std::strtol(fail, &rest, 10) == rank && *rest == ':') hooks.failing = std::strtol(rest + 1, &rest, 10);
         hooks.out_of_memory = std::strcmp(rest, ":memory") == 0;
+        hooks.damaged_reply = std::strcmp(rest, ":reply") == 0;
     }
     return hooks;
 }
@@ -49,13 +51,16 @@ public:
         if (hooks.longest_delay_ms > 0)
             std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(state_.rng.uniform() * hooks.longest_delay_ms));
         if (state_.taken++ == hooks.failing) state_.victim = *item->genome;
-        if (!state_.victim.edges.empty() && *item->genome == state_.victim) {
+        if (!state_.victim.edges.empty() && *item->genome == state_.victim && !hooks.damaged_reply) {
             if (hooks.out_of_memory) throw std::bad_alloc{};
             throw std::runtime_error("a failure that the test asked for");
         }
         return item;
     }
-    void deliver(int ticket, Evaluation evaluation) override { feed_.deliver(ticket, std::move(evaluation)); }
+    void deliver(int ticket, Evaluation evaluation) override {
+        if (state_.hooks.damaged_reply && !state_.victim.edges.empty()) evaluation.descriptors.balls.resize(most_balls + 1);
+        feed_.deliver(ticket, std::move(evaluation));
+    }
     void pulse() override { feed_.pulse(); }
 
 private:

@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <new>
 #include <utility>
 
 namespace lore {
@@ -112,6 +114,12 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     } catch (Error const& error) {
         if (farm.broken()) end_all(session, error);
         throw;
+    } catch (std::exception const& error) {
+        bool const memory = dynamic_cast<std::bad_alloc const*>(&error) != nullptr;
+        Error const told(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation + 1), memory ? "out of memory" : error.what(),
+                         memory ? "Resume the run where there is more." : "Resume the run.");
+        if (farm.broken()) end_all(session, told);
+        throw told;
     }
 
     std::vector<RankTimes> const rank_times = farm.stop();

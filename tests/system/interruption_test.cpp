@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 using namespace lore;
 using ::testing::HasSubstr;
 
@@ -49,12 +51,28 @@ TEST(Signals, sent_to_mpirun_stop_all_ranks_with_exit_code_75) {
 
 TEST(Signals, that_make_mpirun_kill_its_ranks_leave_a_checkpoint) {
     Scratch const scratch;
-    std::string const config = small_config(scratch, endless), directory = scratch.file("term");
-    Command command{scratch, on_ranks(2) + evolve(config, directory)};
-    ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
-    command.signal(SIGTERM);
-    EXPECT_NE(command.wait(), 0);
-    EXPECT_THAT(file_text(directory + "/manifest.json"), HasSubstr("\"status\": \"interrupted\""));
+    std::string const config = small_config(scratch, endless);
+    for (int const number : {SIGTERM, SIGINT}) {
+        std::string const directory = scratch.file(std::to_string(number));
+        Command command{scratch, on_ranks(2) + evolve(config, directory)};
+        ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
+        command.signal(number);
+        EXPECT_NE(command.wait(), 0);
+        EXPECT_THAT(file_text(directory + "/manifest.json"), HasSubstr("\"status\": \"interrupted\"")) << number;
+    }
+}
+
+TEST(Signals, of_a_cpu_limit_may_repeat_before_the_generation_ends) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, endless), directory = scratch.file("run");
+    Command command{scratch, std::vector<std::string>{"LORE_TEST_DELAY=150"} + evolve(config, directory)};   // more than a second a generation
+    ASSERT_TRUE(command.wait_until([&] { return exists(directory + "/progress.csv"); }));
+    for (int repeat = 0; repeat < 10 && command.running(); ++repeat) {   // the kernel: once a second of processor time
+        command.signal(SIGXCPU);
+        std::this_thread::sleep_for(std::chrono::milliseconds{600});
+    }
+    EXPECT_EQ(command.wait(), 75) << command.err();
+    EXPECT_TRUE(exists(directory + "/checkpoint.lore"));
 }
 
 TEST(Signals, end_a_run_at_once_when_one_comes_again_later) {
@@ -112,4 +130,33 @@ TEST(KilledRank, ends_the_whole_job_within_seconds) {
     EXPECT_NE(command.wait(), 0);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{10});
     EXPECT_TRUE(exists(directory + "/checkpoint.lore"));
+}
+
+TEST(DamagedMessage, ends_all_ranks_within_seconds) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, endless), directory = scratch.file("run");
+    Command command{scratch, std::vector<std::string>{"LORE_TEST_FAIL=1:20:reply"} + on_ranks(3) + evolve(config, directory)};
+    auto const start = std::chrono::steady_clock::now();
+    EXPECT_EQ(command.wait(), 1);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{20});
+    EXPECT_THAT(command.err(), HasSubstr("a message with evaluations"));
+}
+
+TEST(OutOfMemory, in_the_midst_of_evolution_ends_all_ranks_with_one_line) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers want all of the address space";
+#else
+    Scratch const scratch;
+    std::string const config = small_config(scratch, endless);
+    for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)}) {
+        // The distances among 60 000 would take 28 GB.
+        std::vector<std::string> const with_limit{"bash", "-c", "ulimit -v 900000; exec \"$@\"", "-"};
+        std::string const directory = scratch.file(std::to_string(launcher.size()));
+        Command command{scratch, with_limit + launcher + evolve(config, directory, {"--set", "evolution.population=20000", "--set", "evolution.founders=60000",
+                                                                                    "--set", "episode.steps=20"})};
+        EXPECT_EQ(command.wait(), 1);
+        EXPECT_THAT(command.err(), HasSubstr("failed in generation 0 (out of memory)"));
+        EXPECT_EQ(std::ranges::count(command.err(), '\n'), 1) << command.err();
+    }
+#endif
 }

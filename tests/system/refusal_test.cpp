@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
+
 #include <sys/mount.h>
 
 using namespace lore;
@@ -104,6 +106,52 @@ TEST(Directory, of_a_running_run_is_refused) {
     EXPECT_TRUE(first.running());
 }
 
+TEST(Directory, in_which_several_runs_start_at_once_goes_to_one_of_them) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, 12), directory = scratch.file("run");
+    std::vector<std::unique_ptr<Command>> contenders;
+    for (int i = 0; i < 4; ++i)
+        contenders.push_back(std::make_unique<Command>(scratch, std::vector<std::string>{"LORE_TEST_DELAY=10"} + evolve(config, directory)));
+    int winners = 0;
+    for (auto& contender : contenders) {
+        int const code = contender->wait();
+        winners += code == 0;
+        if (code == 0) continue;
+        EXPECT_TRUE(code == 1 || code == 2) << code;
+        EXPECT_THAT(contender->err(), ::testing::AnyOf(HasSubstr("another process runs in"), HasSubstr("already holds a run")));
+        EXPECT_TRUE(is_one_line(contender->err())) << contender->err();
+    }
+    EXPECT_EQ(winners, 1);
+    Command straight{scratch, evolve(config, scratch.file("straight"))};
+    EXPECT_EQ(straight.wait(), 0);
+    EXPECT_EQ(results(directory), results(scratch.file("straight")));
+}
+
+TEST(Directory, on_a_read_only_disk_is_refused_and_stays_as_it_is) {
+    Scratch const scratch;
+    std::string const disk = scratch.file("disk"), directory = disk + "/run";
+    std::filesystem::create_directories(disk);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=40m") != 0) GTEST_SKIP() << "no right to mount a tmpfs here";
+    std::string const config = small_config(scratch, 1000000);
+    {
+        Command command{scratch, evolve(config, directory)};
+        EXPECT_TRUE(command.wait_until([&] { return exists(directory + "/checkpoint.lore"); }));
+        command.signal(SIGTERM);
+        EXPECT_EQ(command.wait(), 75) << command.err();
+    }
+    std::string const before = results(directory);
+    EXPECT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
+    for (std::string const& place : {directory, disk + "/new"})
+        for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)}) {
+            Refusal const said = refusal(scratch, launcher + evolve(config, place, {"--resume"}));
+            EXPECT_EQ(said.code, 1);
+            EXPECT_THAT(said.line, HasSubstr("Read-only file system"));
+            EXPECT_TRUE(is_one_line(said.line)) << said.line;
+        }
+    EXPECT_EQ(results(directory), before);
+    ::umount(disk.c_str());
+}
+
 TEST(Directory, that_cannot_be_made_or_written_is_refused) {
     Scratch const scratch;
     std::string const config = small_config(scratch, 3);
@@ -115,15 +163,18 @@ TEST(Directory, that_cannot_be_made_or_written_is_refused) {
     }
 }
 
-TEST(Directory, deleted_under_a_run_ends_it_with_one_line) {
+TEST(Directory, deleted_or_moved_under_a_run_ends_it_with_one_line) {
     Scratch const scratch;
     std::string const config = small_config(scratch, 1000000), directory = scratch.file("run");
-    Command command{scratch, evolve(config, directory)};
-    ASSERT_TRUE(command.wait_until([&] { return exists(directory + "/checkpoint.lore"); }));
-    std::filesystem::rename(directory, scratch.file("elsewhere"));
-    EXPECT_EQ(command.wait(), 1);
-    EXPECT_THAT(command.err(), HasSubstr("No such file or directory"));
-    EXPECT_TRUE(is_one_line(command.err())) << command.err();
+    for (bool const deleted : {true, false}) {
+        Command command{scratch, evolve(config, directory)};
+        ASSERT_TRUE(command.wait_until([&] { return exists(directory + "/checkpoint.lore"); }));
+        std::filesystem::rename(directory, scratch.file("elsewhere"));   // nothing is written into it by name from now on
+        if (deleted) std::filesystem::remove_all(scratch.file("elsewhere"));
+        EXPECT_EQ(command.wait(), 1);
+        EXPECT_THAT(command.err(), HasSubstr("No such file or directory"));
+        EXPECT_TRUE(is_one_line(command.err())) << command.err();
+    }
 }
 
 TEST(FullDisk, ends_a_run_with_one_line_and_its_last_checkpoint_serves_on) {

@@ -61,6 +61,7 @@ public:
 private:
     struct State;
     class OwnFeed;
+    std::vector<Evaluation> evaluate_everywhere(std::span<Genome const* const>, Arrival const&);
     std::unique_ptr<State> state_;
 };
 
