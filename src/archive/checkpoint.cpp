@@ -2,6 +2,8 @@
 
 #include "birth_table.h"
 
+#include <lore/archive/atomic_file.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -95,13 +97,8 @@ Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_vie
 }
 
 void write_checkpoint(std::string const& path, std::string const& older, Checkpoint const& checkpoint) {
-    // Sealed before the former one is touched; a second name keeps it until the rename has replaced the first.
-    Bytes const payload = pack_checkpoint(checkpoint);
-    std::error_code failed;
-    std::filesystem::remove(older, failed);
-    std::filesystem::create_hard_link(path, older, failed);
-    if (failed && std::filesystem::exists(path)) std::filesystem::copy_file(path, older, failed);   // no hard links here
-    write_container(path, FileKind::checkpoint, payload, Packing::fast);
+    // No second name for the same file in between: damage to one of the two must never be damage to both.
+    replace_file(path, older, seal(FileKind::checkpoint, pack_checkpoint(checkpoint), Packing::fast));
 }
 
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older) {

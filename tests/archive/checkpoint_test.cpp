@@ -8,8 +8,14 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <filesystem>
 #include <limits>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace lore;
 
@@ -77,6 +83,40 @@ TEST(Checkpoint, never_keeps_a_damaged_one_in_place_of_the_whole_one) {
     write_checkpoint(path, older, read_checkpoint(path, older).checkpoint);
     for (std::string const& one : {path, older})
         EXPECT_EQ(unpack_checkpoint(read_container(one, FileKind::checkpoint), one).state.population.generation, 1);
+}
+
+TEST(Checkpoint, that_cannot_be_written_leaves_both_former_ones) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    for (int generation : {1, 2}) write_checkpoint(path, older, checkpoint_at(generation));
+    auto const newer_bytes = read_file(path), older_bytes = read_file(older);
+    rlimit limit{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+    rlimit const small{1000, limit.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(write_checkpoint(path, older, checkpoint_at(3)), Error);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    EXPECT_EQ(read_file(path), newer_bytes);
+    EXPECT_EQ(read_file(older), older_bytes);
+}
+
+TEST(Checkpoint, whose_writing_is_killed_anywhere_leaves_one_whole_and_never_two_names_of_one_file) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    Checkpoint const first = checkpoint_at(1), second = checkpoint_at(2);
+    for (int attempt = 0; attempt < 60; ++attempt) {
+        write_checkpoint(path, older, first);
+        pid_t const writer = ::fork();
+        if (writer == 0) while (true) write_checkpoint(path, older, second);
+        ::usleep(static_cast<useconds_t>(attempt * 57));
+        ::kill(writer, SIGKILL);
+        ::waitpid(writer, nullptr, 0);
+        struct stat a {}, b {};
+        bool const both = ::stat(path.c_str(), &a) == 0 && ::stat(older.c_str(), &b) == 0;
+        EXPECT_TRUE(!both || a.st_ino != b.st_ino) << attempt;
+        EXPECT_GE(read_checkpoint(path, older).checkpoint.state.population.generation, 1) << attempt;
+    }
 }
 
 TEST(Checkpoint, refuses_a_payload_cut_at_any_length) {

@@ -14,11 +14,15 @@ std::atomic<std::size_t> largest{0};
 
 std::size_t lore::take_largest_allocation() { return largest.exchange(0); }
 
-// The other forms of new and delete come down to these.
-void* operator new(std::size_t size) {
+// Arrays come down to these; a sanitizer's own forms without exceptions would not.
+void* operator new(std::size_t size, std::nothrow_t const&) noexcept {
     for (std::size_t seen = largest; size > seen && !largest.compare_exchange_weak(seen, size);) {}
-    if (void* const memory = std::malloc(std::max<std::size_t>(size, 1))) return memory;
+    return std::malloc(std::max<std::size_t>(size, 1));
+}
+void* operator new(std::size_t size) {
+    if (void* const memory = operator new(size, std::nothrow)) return memory;
     throw std::bad_alloc{};
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::nothrow_t const&) noexcept { std::free(memory); }

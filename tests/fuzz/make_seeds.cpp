@@ -3,6 +3,7 @@
 #include "support/sample_files.h"
 
 #include <lore/archive/messages.h>
+#include <lore/campaign/choice.h>
 
 #include <cstdio>
 
@@ -51,6 +52,18 @@ void files(Seeds const& seeds, fs::path const& samples) {
     for (char const* name : {"small.toml", "paper.toml"}) seeds.write("campaign", name, read_file(jobs / name));
 }
 
+/// The first byte as in results_fuzz.cpp.
+void results(Seeds const& seeds, fs::path const& samples) {
+    fs::path const sample = LORE_SOURCE_DIR "/tests/browser/sample";
+    std::size_t which = 0;
+    for (char const* name : {"runs.csv", "curves.csv", "kbs.csv", "replay.csv", "values.csv"}) seeds.write("results", name, which++, read_file(sample / name));
+    std::string const choice = samples / "choice.json";
+    write_choice(choice, Choice{{{"kb1", 7, 3, 12345, 6}}, {{3, 12345, 6}, {4, 12346, 2}}, {5}});
+    seeds.write("results", "choice.json", which++, read_file(choice));
+    std::string_view const failure = R"({"attempts": 2, "how": "exit code 1", "log_tail": ["a line", "another"]})";
+    seeds.write("results", "failure.json", which, std::as_bytes(std::span{failure.data(), failure.size()}));
+}
+
 void messages(Seeds const& seeds, Population const& population) {
     std::vector<Genome const*> genomes;
     std::vector<Evaluation> evaluations;
@@ -77,5 +90,6 @@ int main(int argc, char** argv) {
     fs::path const samples = fs::path{argv[1]} / "samples";
     EvolutionState const evolved = write_sample_files(samples);
     files(seeds, samples);
+    results(seeds, samples);
     messages(seeds, evolved.population);
 }

@@ -13,6 +13,10 @@ namespace lore {
 void write_file_atomically(std::string const& path, std::span<std::byte const> content);
 void write_file_atomically(std::string const& path, std::string_view content);
 
+/// Likewise, but what `path` held stays as `former`, in place of what that held. Nothing is touched before the new content
+/// is on the disk whole; killed at the worst moment, a process leaves `former` alone, for lack of a `path`.
+void replace_file(std::string const& path, std::string const& former, std::span<std::byte const> content);
+
 /// A whole file. Throws Error (missing, unreadable, a directory).
 std::vector<std::byte> read_file(std::string const& path);
 

@@ -27,7 +27,8 @@ Bytes pack_checkpoint(Checkpoint const&);
 /// `name` is what errors call it.
 Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_view name);
 
-/// The former checkpoint stays as `older`; at every moment one of the two is whole.
+/// The former checkpoint stays as `older`; at every moment one of the two is whole, and they are never the same file. If
+/// it cannot be written (full disk), both stay as they are.
 void write_checkpoint(std::string const& path, std::string const& older, Checkpoint const&);
 
 struct FoundCheckpoint {
