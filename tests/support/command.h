@@ -84,10 +84,10 @@ public:
         }
         return code_;
     }
-    /// False if the condition does not become true in ten seconds, or the program ends before.
+    /// False if the condition does not become true in a minute (sanitizers, other work on the machine), or the program ends before.
     template <class Condition>
     bool wait_until(Condition const& condition) {
-        for (int i = 0; i < 1000; ++i) {
+        for (int i = 0; i < 6000; ++i) {
             if (condition()) return true;
             if (!running()) return condition();
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
