@@ -57,8 +57,10 @@ ExitCode plan(Arguments const& arguments) {
     bool const usable = choice && choice->covers(campaign);
     fmt::print("# {}\n{:<24} {:<22} {}\n", campaign.title, "step", "waits for", "command");
     for (Step const& step : steps_of(campaign)) {
-        auto const command = command_of(campaign, directory, arguments.runner.launcher, step, usable ? &*choice : nullptr);
-        fmt::print("{:<24} {:<22} {}\n", step.name, step.after.empty() ? "-" : fmt::format("{}", fmt::join(step.after, ",")),
+        auto const command =
+            command_of(campaign, directory, arguments.runner.launcher, step, usable ? &*choice : nullptr);
+        fmt::print("{:<24} {:<22} {}\n", step.name,
+                   step.after.empty() ? "-" : fmt::format("{}", fmt::join(step.after, ",")),
                    command.empty() ? "(source runs for the knowledge bases)" : shell_text(command));
     }
     return ExitCode::done;
@@ -83,9 +85,11 @@ ExitCode submit(Arguments const& arguments) {
     CampaignPlan campaign = read_campaign(arguments.file);
     if (!arguments.time_limit.empty()) campaign.cluster.time_limit = arguments.time_limit;
     if (arguments.concurrent > 0) campaign.cluster.concurrent = arguments.concurrent;
-    campaign.cluster.options.insert(campaign.cluster.options.end(), arguments.cluster_options.begin(), arguments.cluster_options.end());
+    campaign.cluster.options.insert(campaign.cluster.options.end(), arguments.cluster_options.begin(),
+                                    arguments.cluster_options.end());
     std::string const self = std::filesystem::read_symlink("/proc/self/exe").string();
-    for (std::string const& line : submit_campaign(campaign, CampaignDirectory{arguments.directory}, arguments.runner.launcher, self, arguments.only_write))
+    for (std::string const& line : submit_campaign(campaign, CampaignDirectory{arguments.directory},
+                                                   arguments.runner.launcher, self, arguments.only_write))
         if (!arguments.quiet) fmt::print("{}\n", line);
     return ExitCode::done;
 }
@@ -100,7 +104,8 @@ ExitCode report(Arguments const& arguments) {
 /// One number a line; empty lines do not count.
 std::vector<double> read_sample(std::string const& path) {
     std::ifstream file{path};
-    if (!file) throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
+    if (!file)
+        throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
     std::vector<double> sample;
     int number = 0;
     for (std::string line; std::getline(file, line);) {
@@ -110,8 +115,8 @@ std::vector<double> read_sample(std::string const& path) {
         double value = 0;
         auto const [end, failed] = std::from_chars(line.data(), line.data() + line.size(), value);
         if (failed != std::errc{} || end != line.data() + line.size())
-            throw UsageError(fmt::format("{}, line {}: '{}' is no number", path, number, line.substr(0, 40)), "one number a line is expected",
-                             "Remove headers and other columns.");
+            throw UsageError(fmt::format("{}, line {}: '{}' is no number", path, number, line.substr(0, 40)),
+                             "one number a line is expected", "Remove headers and other columns.");
         sample.push_back(value);
     }
     return sample;
@@ -126,16 +131,17 @@ ExitCode test(Arguments const& arguments) {
 
 int run(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"Runs campaigns from one file: source runs, knowledge bases, target runs, report.\n\n"
-                 "Examples:\n"
-                 "  lore-campaign plan   jobs/paper.toml --dir runs/paper           what will be done\n"
-                 "  lore-campaign run    jobs/paper.toml --dir runs/paper --jobs 8  do it here, eight runs at a time\n"
-                 "  lore-campaign submit jobs/paper.toml --dir runs/paper           do it on a Slurm cluster\n"
-                 "  lore-campaign report jobs/paper.toml --dir runs/paper           runs/paper/report.html\n"
-                 "  lore-campaign status jobs/paper.toml --dir runs/paper           how far it has come\n"
-                 "  lore-campaign test   a.csv b.csv                                compare two columns of numbers\n\n"
-                 "Exit codes: 0 done, 1 something failed, 2 command line or campaign file, 75 interrupted: call it again.",
-                 "lore-campaign"};
+    CLI::App app{
+        "Runs campaigns from one file: source runs, knowledge bases, target runs, report.\n\n"
+        "Examples:\n"
+        "  lore-campaign plan   jobs/paper.toml --dir runs/paper           what will be done\n"
+        "  lore-campaign run    jobs/paper.toml --dir runs/paper --jobs 8  do it here, eight runs at a time\n"
+        "  lore-campaign submit jobs/paper.toml --dir runs/paper           do it on a Slurm cluster\n"
+        "  lore-campaign report jobs/paper.toml --dir runs/paper           runs/paper/report.html\n"
+        "  lore-campaign status jobs/paper.toml --dir runs/paper           how far it has come\n"
+        "  lore-campaign test   a.csv b.csv                                compare two columns of numbers\n\n"
+        "Exit codes: 0 done, 1 something failed, 2 command line or campaign file, 75 interrupted: call it again.",
+        "lore-campaign"};
     app.set_version_flag("--version", [] { return version_text("lore-campaign"); });
     app.require_subcommand(1);
 
@@ -147,33 +153,48 @@ int run(int argc, char** argv) {
         return command;
     };
     auto const starts_runs = [&](CLI::App* command) {
-        command->add_option("-n,--ranks", arguments.runner.launcher.ranks, "MPI ranks of a run (1: started without mpirun)")
-            ->capture_default_str()->check(CLI::Range(1, 100000));
-        command->add_option("--launch", arguments.runner.launcher.launch, "how runs of several ranks are started")->capture_default_str();
-        command->add_option("--programs", arguments.runner.launcher.programs, "directory of lore-evolve and lore-kb (default: this program's)");
+        command
+            ->add_option("-n,--ranks", arguments.runner.launcher.ranks,
+                         "MPI ranks of a run (1: started without mpirun)")
+            ->capture_default_str()
+            ->check(CLI::Range(1, 100000));
+        command->add_option("--launch", arguments.runner.launcher.launch, "how runs of several ranks are started")
+            ->capture_default_str();
+        command->add_option("--programs", arguments.runner.launcher.programs,
+                            "directory of lore-evolve and lore-kb (default: this program's)");
     };
 
     CLI::App* const plan_command = on_campaign("plan", "list the steps, what each waits for, and its command");
     starts_runs(plan_command);
 
-    CLI::App* const run_command = on_campaign("run", "work through the steps on this machine; finished ones are skipped, interrupted ones resumed");
+    CLI::App* const run_command = on_campaign(
+        "run", "work through the steps on this machine; finished ones are skipped, interrupted ones resumed");
     starts_runs(run_command);
     int jobs = 0;
-    run_command->add_option("-j,--jobs", jobs, "steps at a time (default: cores / ranks)")->check(CLI::Range(1, 100000));
-    run_command->add_option("--only", arguments.runner.only, "only these steps or groups, such as source, source/007 or knowledge/kb1");
+    run_command->add_option("-j,--jobs", jobs, "steps at a time (default: cores / ranks)")
+        ->check(CLI::Range(1, 100000));
+    run_command->add_option("--only", arguments.runner.only,
+                            "only these steps or groups, such as source, source/007 or knowledge/kb1");
 
-    CLI::App* const submit_command = on_campaign("submit", "write Slurm job scripts to DIR/slurm for what is not done yet, and submit them");
+    CLI::App* const submit_command =
+        on_campaign("submit", "write Slurm job scripts to DIR/slurm for what is not done yet, and submit them");
     starts_runs(submit_command);
     submit_command->add_option("--time", arguments.time_limit, "limit of a task, HH:MM:SS (default: the campaign's)");
-    submit_command->add_option("--concurrent", arguments.concurrent, "most tasks of a treatment at a time (default: the campaign's)")->check(CLI::Range(1, 100000));
-    submit_command->add_option("--sbatch", arguments.cluster_options, "a further #SBATCH option, such as --partition=long; repeatable");
+    submit_command
+        ->add_option("--concurrent", arguments.concurrent,
+                     "most tasks of a treatment at a time (default: the campaign's)")
+        ->check(CLI::Range(1, 100000));
+    submit_command->add_option("--sbatch", arguments.cluster_options,
+                               "a further #SBATCH option, such as --partition=long; repeatable");
     submit_command->add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
 
     CLI::App* const report_command = on_campaign("report", "tables, figures and report.html from what is there by now");
 
-    CLI::App* const status_command = on_campaign("status", "done / running / interrupted / failed / missing, with the reason");
+    CLI::App* const status_command =
+        on_campaign("status", "done / running / interrupted / failed / missing, with the reason");
 
-    CLI::App* const test_command = app.add_subcommand("test", "two-sided Mann-Whitney test of two files with one number a line");
+    CLI::App* const test_command =
+        app.add_subcommand("test", "two-sided Mann-Whitney test of two files with one number a line");
     test_command->add_option("A", arguments.first, "first sample")->required();
     test_command->add_option("B", arguments.second, "second sample")->required();
 
@@ -194,7 +215,9 @@ int run(int argc, char** argv) {
     arguments.runner.jobs = jobs > 0 ? jobs : std::max(1, cores / arguments.runner.launcher.ranks);
 
     if (*plan_command) return static_cast<int>(plan(arguments));
-    if (*run_command) return static_cast<int>(run_campaign(read_campaign(arguments.file), CampaignDirectory{arguments.directory}, arguments.runner));
+    if (*run_command)
+        return static_cast<int>(
+            run_campaign(read_campaign(arguments.file), CampaignDirectory{arguments.directory}, arguments.runner));
     if (*submit_command) return static_cast<int>(submit(arguments));
     if (*report_command) return static_cast<int>(report(arguments));
     if (*status_command) return static_cast<int>(status(arguments));

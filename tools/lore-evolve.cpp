@@ -61,15 +61,18 @@ struct CommandLine {
 ExitCode work(Session const& session, CommandLine& line) {
     if (line.bench) {
         BenchOutcome const bench = run_bench(session);
-        fmt::print("{:.0f} steps per second on {} rank(s)\nsignature: {}\n", bench.steps_per_second, session.size(), bench.signature);
+        fmt::print("{:.0f} steps per second on {} rank(s)\nsignature: {}\n", bench.steps_per_second, session.size(),
+                   bench.signature);
         return ExitCode::done;
     }
     RunOutcome const outcome = run_experiment(session, line.run);
     if (!outcome.finished) {
-        fmt::print(stderr, "stopped at generation {} by {}; go on with --resume\n", outcome.generation, outcome.stop_reason);
+        fmt::print(stderr, "stopped at generation {} by {}; go on with --resume\n", outcome.generation,
+                   outcome.stop_reason);
         return ExitCode::interrupted;
     }
-    fmt::print("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id), outcome.best->balls, outcome.signature);
+    fmt::print("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id), outcome.best->balls,
+               outcome.signature);
     return ExitCode::done;
 }
 
@@ -83,7 +86,10 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_option("--out", line.run.directory, "directory to write into; made if it is not there")->type_name("DIR");
     std::uint64_t seed = 1;
     auto* const seed_option = app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N");
-    app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")->type_name("KEY=VALUE")->expected(1)->take_all();
+    app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
@@ -94,7 +100,8 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
     if (line.bench) return std::nullopt;
     if (seed_option->count() > 0) line.run.seed = seed;
-    if (line.run.directory.empty()) throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");
+    if (line.run.directory.empty())
+        throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");
     if (line.run.config_path.empty() && !line.run.resume)
         throw UsageError("no configuration", "the file's name is missing", "Name one, such as jobs/source.toml.");
     if (!line.max_time.empty()) line.run.max_seconds = seconds_of(line.max_time);
@@ -149,7 +156,8 @@ int main(int argc, char** argv) {
             complain(fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what()), ExitCode::failure);
             session.abort(1);
         }
-        if (std::fflush(stdout) != 0 && status == 0) status = complain("cannot write the result to stdout", ExitCode::failure);
+        if (std::fflush(stdout) != 0 && status == 0)
+            status = complain("cannot write the result to stdout", ExitCode::failure);
     } catch (Error const& error) {
         return complain(error.what(), error.exit_code());
     }

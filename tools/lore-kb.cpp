@@ -66,7 +66,8 @@ void check_writable(std::string const& path) {
     if (std::filesystem::is_directory(path))
         throw UsageError(fmt::format("cannot write {}", path), "it is a directory", "Name a file in it.");
     if (!directory.empty() && !std::filesystem::is_directory(directory))
-        throw UsageError(fmt::format("cannot write {}", path), fmt::format("there is no directory {}", directory.string()), "Make it first.");
+        throw UsageError(fmt::format("cannot write {}", path),
+                         fmt::format("there is no directory {}", directory.string()), "Make it first.");
 }
 
 void build(Arguments const& arguments) {
@@ -78,14 +79,18 @@ void build(Arguments const& arguments) {
     if (arguments.threshold_given) config.match_threshold = arguments.config.match_threshold;
 
     auto const individual = run.individual(arguments.individual);
-    auto const total = static_cast<std::int64_t>(arguments.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(arguments.every) + 1
-                                                               : lineage_of(*individual).size());
+    auto const total = static_cast<std::int64_t>(
+        arguments.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(arguments.every) + 1
+                      : lineage_of(*individual).size());
     Progress progress{"building", total, "individuals", arguments.all ? 20000 : 500, arguments.quiet};
-    BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) { progress.update(done, fmt::format("{} features", features)); };
+    BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) {
+        progress.update(done, fmt::format("{} features", features));
+    };
     Provenance provenance;
     provenance.made_by = made_by(arguments);
-    KnowledgeBase const base = arguments.all ? knowledge_of_all(run, arguments.every, config, kind, provenance, observe)
-                                             : knowledge_of_lineage(run, *individual, config, kind, provenance, observe);
+    KnowledgeBase const base = arguments.all
+                                   ? knowledge_of_all(run, arguments.every, config, kind, provenance, observe)
+                                   : knowledge_of_lineage(run, *individual, config, kind, provenance, observe);
     write_knowledge_base(arguments.out, base);
     say(arguments, fmt::format("wrote {}: {} features from {} windows of {} individuals", arguments.out, base.size(),
                                base.provenance().windows, base.provenance().individuals));
@@ -108,17 +113,21 @@ void info(Arguments const& arguments) {
         fmt::print("{}\n", json.dump(2));
         return;
     }
-    fmt::print("features     {}\nwindow       {} steps x {} channels\nthreshold    {} (Euclidean distance)\n", base.size(),
-               base.config().window_length, channel_count, base.config().match_threshold);
+    fmt::print("features     {}\nwindow       {} steps x {} channels\nthreshold    {} (Euclidean distance)\n",
+               base.size(), base.config().window_length, channel_count, base.config().match_threshold);
     if (base.size() > 0) {
         fmt::print("values       {:.4g} to {:.4g}, mean {:.4g}\n", summary.lowest, summary.highest, summary.mean);
         auto const most = *std::max_element(summary.counts.begin(), summary.counts.end());
         for (std::size_t bin = 0; bin < summary.counts.size(); ++bin)
             fmt::print("  {:7.3f} ..{:7.3f} {:8} {}\n", summary.edges[bin], summary.edges[bin + 1], summary.counts[bin],
-                       std::string(static_cast<std::size_t>(std::llround(40.0 * static_cast<double>(summary.counts[bin]) / static_cast<double>(most))), '#'));
+                       std::string(static_cast<std::size_t>(std::llround(
+                                       40.0 * static_cast<double>(summary.counts[bin]) / static_cast<double>(most))),
+                                   '#'));
     }
-    fmt::print("kind         {}\nindex        {}\ntask         {}\nindividuals  {}\nwindows      {}\nbest balls   {}\nsources      {}\n", origin.kind,
-               origin.index, origin.task, origin.individuals, origin.windows, origin.best_balls, fmt::join(origin.sources, ", "));
+    fmt::print("kind         {}\nindex        {}\ntask         {}\nindividuals  {}\nwindows      {}\nbest balls   "
+               "{}\nsources      {}\n",
+               origin.kind, origin.index, origin.task, origin.individuals, origin.windows, origin.best_balls,
+               fmt::join(origin.sources, ", "));
     for (std::string const& step : origin.derivation) fmt::print("then         {}\n", step);
     fmt::print("made by      {}\n", origin.made_by);
 }
@@ -130,11 +139,13 @@ Trace trace_of(RunDirectory const& run, std::string const& which) {
 
 void query(Arguments const& arguments) {
     if (arguments.run.empty() == arguments.windows.empty())
-        throw UsageError("cannot query", "one source of windows is needed", "Give either --run DIR or --windows FILE.npy.");
+        throw UsageError("cannot query", "one source of windows is needed",
+                         "Give either --run DIR or --windows FILE.npy.");
     check_writable(arguments.csv);
     KnowledgeBase const base = read_knowledge_base(arguments.input);
     int const length = base.config().window_length;
-    Trace const trace = arguments.run.empty() ? read_windows(arguments.windows, length) : trace_of(open_run(arguments.run), arguments.individual);
+    Trace const trace = arguments.run.empty() ? read_windows(arguments.windows, length)
+                                              : trace_of(open_run(arguments.run), arguments.individual);
     Shaper const shaper{base, index_kind(arguments.index)};
     auto reader = shaper.reader();
     std::string csv = "window,step,feature,distance,value,count\n";
@@ -163,9 +174,10 @@ void product(Arguments const& arguments) {
         shapers.emplace_back(read_knowledge_base(path));
         int const length = shapers.front().base().config().window_length;
         if (shapers.back().base().config().window_length != length)
-            throw UsageError(fmt::format("cannot combine {} with {}", path, arguments.inputs.front()),
-                             fmt::format("windows of {} and of {} steps", shapers.back().base().config().window_length, length),
-                             "Give knowledge bases of one window length.");
+            throw UsageError(
+                fmt::format("cannot combine {} with {}", path, arguments.inputs.front()),
+                fmt::format("windows of {} and of {} steps", shapers.back().base().config().window_length, length),
+                "Give knowledge bases of one window length.");
         fmt::format_to(std::back_inserter(csv), ",value_{}", shapers.size());
     }
     csv += '\n';
@@ -191,7 +203,8 @@ void product(Arguments const& arguments) {
 void write_derived(Arguments const& arguments, KnowledgeBase const& derived, std::vector<std::string> sources) {
     KnowledgeBase::Parts parts = derived.parts();
     parts.provenance.made_by = made_by(arguments);
-    parts.provenance.derivation.insert(parts.provenance.derivation.end() - 1, fmt::format("read from {}", fmt::join(sources, ", ")));
+    parts.provenance.derivation.insert(parts.provenance.derivation.end() - 1,
+                                       fmt::format("read from {}", fmt::join(sources, ", ")));
     write_knowledge_base(arguments.out, KnowledgeBase{std::move(parts)});
     say(arguments, fmt::format("wrote {}: {} features", arguments.out, derived.size()));
 }
@@ -207,7 +220,8 @@ void reduce(Arguments const& arguments) {
     check_writable(arguments.out);
     KnowledgeBase const base = read_knowledge_base(arguments.input);
     if (arguments.top_given) return write_derived(arguments, keep_top(base, arguments.top), {arguments.input});
-    if (arguments.least_given) return write_derived(arguments, keep_valued(base, arguments.least_value), {arguments.input});
+    if (arguments.least_given)
+        return write_derived(arguments, keep_valued(base, arguments.least_value), {arguments.input});
     std::vector<KnowledgeBase> others;
     std::vector<std::string> sources{arguments.input};
     for (std::string const& path : arguments.consensus) {
@@ -226,25 +240,29 @@ void export_base(Arguments const& arguments) {
         check_writable(arguments.csv);
         write_file_atomically(arguments.csv, knowledge_csv(base));
     }
-    say(arguments, fmt::format("wrote {}: {} features", arguments.npy.empty() ? arguments.csv : arguments.npy, base.size()));
+    say(arguments,
+        fmt::format("wrote {}: {} features", arguments.npy.empty() ? arguments.csv : arguments.npy, base.size()));
 }
 
 int run(int argc, char** argv) {
     Arguments arguments;
     arguments.command_line = fmt::format("lore-kb {}", fmt::join(argv + 1, argv + argc, " "));
-    CLI::App app{"Builds, asks and derives knowledge bases: behavioural features and the rewards of those who showed them.", "lore-kb"};
-    app.footer("Examples:\n"
-               "  lore-kb build runs/s1 --out kb1.lorekb                        from the lineage of the best-of-run\n"
-               "  lore-kb build runs/s1 --all --out kb1all.lorekb               from every individual ever evaluated\n"
-               "  lore-kb info kb1.lorekb --json\n"
-               "  lore-kb query kb1.lorekb --run runs/t1 --csv found.csv        what the best of another run shows of it\n"
-               "  lore-kb product kb1.lorekb kb2.lorekb --run runs/s1 --csv product.csv\n"
-               "  lore-kb randomize kb1.lorekb --seed 1 --out kb1random.lorekb\n"
-               "  lore-kb reduce kb1.lorekb --top 1000 --out top.lorekb\n"
-               "  lore-kb export kb1.lorekb --npy kb1\n"
-               "  lore-kb verify runs/s1/lineage.lore\n"
-               "'lore-kb COMMAND --help' has the options of a command.\n"
-               "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.");
+    CLI::App app{
+        "Builds, asks and derives knowledge bases: behavioural features and the rewards of those who showed them.",
+        "lore-kb"};
+    app.footer(
+        "Examples:\n"
+        "  lore-kb build runs/s1 --out kb1.lorekb                        from the lineage of the best-of-run\n"
+        "  lore-kb build runs/s1 --all --out kb1all.lorekb               from every individual ever evaluated\n"
+        "  lore-kb info kb1.lorekb --json\n"
+        "  lore-kb query kb1.lorekb --run runs/t1 --csv found.csv        what the best of another run shows of it\n"
+        "  lore-kb product kb1.lorekb kb2.lorekb --run runs/s1 --csv product.csv\n"
+        "  lore-kb randomize kb1.lorekb --seed 1 --out kb1random.lorekb\n"
+        "  lore-kb reduce kb1.lorekb --top 1000 --out top.lorekb\n"
+        "  lore-kb export kb1.lorekb --npy kb1\n"
+        "  lore-kb verify runs/s1/lineage.lore\n"
+        "'lore-kb COMMAND --help' has the options of a command.\n"
+        "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.");
     app.set_version_flag("--version", [] { return version_text("lore-kb"); });
     app.require_subcommand(1);
     app.fallthrough();
@@ -257,9 +275,12 @@ int run(int argc, char** argv) {
         return added;
     };
     auto const add_base = [&](CLI::App* to) { to->add_option("KB", arguments.input, "knowledge base")->required(); };
-    auto const add_out = [&](CLI::App* to) { to->add_option("--out", arguments.out, "knowledge base to write")->required(); };
+    auto const add_out = [&](CLI::App* to) {
+        to->add_option("--out", arguments.out, "knowledge base to write")->required();
+    };
     auto const add_index = [&](CLI::App* to) {
-        to->add_option("--index", arguments.index, "exact, or flann: approximate, and not repeatable from run to run")->capture_default_str();
+        to->add_option("--index", arguments.index, "exact, or flann: approximate, and not repeatable from run to run")
+            ->capture_default_str();
     };
     auto const add_individual = [&](CLI::App* to) {
         to->add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
@@ -270,10 +291,18 @@ int run(int argc, char** argv) {
     add_out(building);
     add_individual(building);
     add_index(building);
-    auto* const all = building->add_flag("--all", arguments.all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
-    building->add_option("--every", arguments.every, "of all, only the first and every N-th after it")->check(CLI::Range(1, 1000000000))->needs(all);
-    auto* const length_option = building->add_option("--window-length", arguments.config.window_length, "steps a window; default: the run's")->check(CLI::Range(1, 4000));
-    auto* const threshold_option = building->add_option("--threshold", arguments.config.match_threshold, "distance below which a window matches; default: the run's")->check(CLI::Range(1e-3, 1e3));
+    auto* const all = building->add_flag(
+        "--all", arguments.all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
+    building->add_option("--every", arguments.every, "of all, only the first and every N-th after it")
+        ->check(CLI::Range(1, 1000000000))
+        ->needs(all);
+    auto* const length_option =
+        building->add_option("--window-length", arguments.config.window_length, "steps a window; default: the run's")
+            ->check(CLI::Range(1, 4000));
+    auto* const threshold_option = building
+                                       ->add_option("--threshold", arguments.config.match_threshold,
+                                                    "distance below which a window matches; default: the run's")
+                                       ->check(CLI::Range(1e-3, 1e3));
 
     CLI::App* const telling = command("info", "Show what is in a knowledge base and where it came from", info);
     add_base(telling);
@@ -287,11 +316,13 @@ int run(int argc, char** argv) {
     add_index(asking);
     asking->add_option("--csv", arguments.csv, "file to write: window,step,feature,distance,value,count")->required();
 
-    CLI::App* const multiplying = command("product", "Multiply the values of several knowledge bases along an evaluation", product);
+    CLI::App* const multiplying =
+        command("product", "Multiply the values of several knowledge bases along an evaluation", product);
     multiplying->add_option("KB", arguments.inputs, "knowledge bases")->required()->expected(1, 1000);
     multiplying->add_option("--run", arguments.run, "run whose individual is evaluated")->required();
     add_individual(multiplying);
-    multiplying->add_option("--csv", arguments.csv, "file to write: window,step,product,value_1,value_2,...")->required();
+    multiplying->add_option("--csv", arguments.csv, "file to write: window,step,product,value_1,value_2,...")
+        ->required();
 
     CLI::App* const randomizing = command("randomize", "Replace the values by random ones ('KB random')", randomize);
     add_base(randomizing);
@@ -300,14 +331,18 @@ int run(int argc, char** argv) {
 
     CLI::App* const reducing = command("reduce", "Keep some of the features", reduce);
     add_base(reducing);
-    auto* const top_option = reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::NonNegativeNumber);
-    auto* const least_option = reducing->add_option("--min-value", arguments.least_value, "those of at least this value");
-    reducing->add_option("--consensus", arguments.consensus, "those that every one of these knowledge bases knows")->expected(1, 1000);
+    auto* const top_option =
+        reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::NonNegativeNumber);
+    auto* const least_option =
+        reducing->add_option("--min-value", arguments.least_value, "those of at least this value");
+    reducing->add_option("--consensus", arguments.consensus, "those that every one of these knowledge bases knows")
+        ->expected(1, 1000);
     add_out(reducing);
 
     CLI::App* const exporting = command("export", "Write the features for other programs", export_base);
     add_base(exporting);
-    exporting->add_option("--npy", arguments.npy, "directory for features.npy, values.npy, reward_sums.npy, counts.npy, provenance.json");
+    exporting->add_option("--npy", arguments.npy,
+                          "directory for features.npy, values.npy, reward_sums.npy, counts.npy, provenance.json");
     exporting->add_option("--csv", arguments.csv, "file, a row a feature");
 
     CLI::App* const verifying = command("verify", "Check any file that Lore writes", [](Arguments const& given) {

@@ -36,7 +36,8 @@ bool clear_of(Box const& wall, Box const& cell, Corner const& light) {
         }
         double const ax = nx * (wall.x0 - light.x), bx = nx * (wall.x1 - light.x);
         double const ay = ny * (wall.y0 - light.y), by = ny * (wall.y1 - light.y);
-        if (std::min(ax, bx) + std::min(ay, by) > cell_most || std::max(ax, bx) + std::max(ay, by) < cell_least) return true;
+        if (std::min(ax, bx) + std::min(ay, by) > cell_most || std::max(ax, bx) + std::max(ay, by) < cell_least)
+            return true;
     }
     return false;
 }
@@ -53,8 +54,9 @@ bool blocks(Box const& wall, Corner const& corner, Corner const& light) {
 
 /// The shadow of a convex wall is convex: if it holds the four corners of the cell, it holds the cell.
 bool hidden_by(Box const& wall, Box const& cell, Corner const& light) {
-    return wall.x0 < wall.x1 && wall.y0 < wall.y1 && blocks(wall, {cell.x0, cell.y0}, light) && blocks(wall, {cell.x1, cell.y0}, light)
-        && blocks(wall, {cell.x0, cell.y1}, light) && blocks(wall, {cell.x1, cell.y1}, light);
+    return wall.x0 < wall.x1 && wall.y0 < wall.y1 && blocks(wall, {cell.x0, cell.y0}, light) &&
+           blocks(wall, {cell.x1, cell.y0}, light) && blocks(wall, {cell.x0, cell.y1}, light) &&
+           blocks(wall, {cell.x1, cell.y1}, light);
 }
 
 /// A wall prepared for all proofs.
@@ -88,8 +90,8 @@ double distance(Box const& a, Box const& b) {
 
 } // namespace
 
-Surroundings survey(float width, float height, std::span<Rect const> walls, int first_door, std::span<Point const> lights,
-                    float touch_distance) {
+Surroundings survey(float width, float height, std::span<Rect const> walls, int first_door,
+                    std::span<Point const> lights, float touch_distance) {
     Surroundings table;
     double const edge = std::max(cell_edge, std::sqrt(static_cast<double>(width) * height / most_cells));
     table.cells_per_u = static_cast<float>(1.0 / edge);
@@ -107,8 +109,10 @@ Surroundings survey(float width, float height, std::span<Rect const> walls, int 
     }
     for (std::size_t at = 0; at < table.cells.size(); ++at) {
         bool const door_open = at >= count || !has_door;
-        int const row = static_cast<int>(at % count) / table.columns, column = static_cast<int>(at % count) % table.columns;
-        Box const box{column * edge - margin, (column + 1) * edge + margin, row * edge - margin, (row + 1) * edge + margin};
+        int const row = static_cast<int>(at % count) / table.columns,
+                  column = static_cast<int>(at % count) % table.columns;
+        Box const box{column * edge - margin, (column + 1) * edge + margin, row * edge - margin,
+                      (row + 1) * edge + margin};
         Surroundings::Cell& cell = table.cells[at];
         if (lights.size() > 16) cell.suspects = 0xffff;   // what hides a light without a bit of its own is not known
         for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -47,7 +47,8 @@ void Board::draw(std::vector<std::string> lines) {
     erase();
     TerminalSize const size = terminal_size();
     // The last line tells of the whole: it stays when there are more runs than rows.
-    if (lines.size() > size.rows - 1) lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(size.rows - 1));
+    if (lines.size() > size.rows - 1)
+        lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(size.rows - 1));
     for (std::string& line : lines) {
         if (line.size() > size.columns - 1) line.resize(size.columns - 1);
         std::fprintf(stderr, "%s\n", line.c_str());

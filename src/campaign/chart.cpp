@@ -39,7 +39,8 @@ std::vector<double> whole_ticks(double most) {
 
 void draw_ball_axis(SvgDocument& svg, Frame const& frame, std::string_view what) {
     for (double const tick : whole_ticks(frame.y_most)) {
-        if (tick > 0) svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
+        if (tick > 0)
+            svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
         svg.text({frame.left - 8, frame.y(tick) + 4}, tick_label(tick), {.anchor = Anchor::end});
     }
     svg.line({frame.left, frame.top}, {frame.left, frame.bottom}, {.stroke = ink});
@@ -64,7 +65,10 @@ std::vector<double> spread(std::vector<double> const& wished, double gap, double
     double least = top;
     for (std::size_t const i : order) { placed[i] = std::max(placed[i], least); least = placed[i] + gap; }
     double most = bottom;
-    for (auto i = order.rbegin(); i != order.rend(); ++i) { placed[*i] = std::min(placed[*i], most); most = placed[*i] - gap; }
+    for (auto i = order.rbegin(); i != order.rend(); ++i) {
+        placed[*i] = std::min(placed[*i], most);
+        most = placed[*i] - gap;
+    }
     return placed;
 }
 
@@ -77,7 +81,8 @@ struct Bracket {
 
 /// From the narrowest to the widest, each on the lowest level that is free over all it spans.
 std::size_t stack(std::vector<Bracket>& brackets) {
-    std::stable_sort(brackets.begin(), brackets.end(), [](Bracket const& a, Bracket const& b) { return a.to - a.from < b.to - b.from; });
+    std::stable_sort(brackets.begin(), brackets.end(),
+                     [](Bracket const& a, Bracket const& b) { return a.to - a.from < b.to - b.from; });
     std::size_t levels = 0;
     for (auto current = brackets.begin(); current != brackets.end(); ++current) {
         auto const taken = [&] {
@@ -91,10 +96,12 @@ std::size_t stack(std::vector<Bracket>& brackets) {
     return levels;
 }
 
-void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls, std::string_view color) {
+void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls,
+              std::string_view color) {
     constexpr double half = 26, whisker = 13;
     FiveNumbers const five = five_numbers(balls);
-    for (auto const& [end, box] : {std::pair{five.low_whisker, five.lower_quartile}, std::pair{five.high_whisker, five.upper_quartile}}) {
+    for (auto const& [end, box] :
+         {std::pair{five.low_whisker, five.lower_quartile}, std::pair{five.high_whisker, five.upper_quartile}}) {
         svg.line({x, frame.y(end)}, {x, frame.y(box)}, {.stroke = ink});
         svg.line({x - whisker, frame.y(end)}, {x + whisker, frame.y(end)}, {.stroke = ink});
     }
@@ -128,7 +135,8 @@ std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
     while (!names.empty()) {
         std::string_view const name = names.substr(0, names.find('*'));
         names.remove_prefix(std::min(names.size(), name.size() + 1));
-        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
+        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                          [&](KnowledgePlan const& k) { return k.name == name; });
         if (!label.empty()) label += " \xc3\x97 ";
         label += planned == plan.knowledge.end() ? std::string{name} : planned->label;
     }
@@ -136,7 +144,8 @@ std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
 }
 
 std::string_view treatment_color(std::size_t i) {
-    static constexpr std::array<std::string_view, 7> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7"};
+    static constexpr std::array<std::string_view, 7> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00",
+                                                               "#0072b2", "#009e73", "#cc79a7"};
     return okabe_ito[i % okabe_ito.size()];
 }
 
@@ -150,7 +159,8 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
         curves.push_back(std::move(curve));
     };
     add(plan.source, source_color, true);
-    for (std::size_t i = 0; i < plan.report_order.size(); ++i) add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
+    for (std::size_t i = 0; i < plan.report_order.size(); ++i)
+        add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
 
     Frame frame{64, 640, 24, 420, 1, 1};
     for (Curve const& curve : curves) {
@@ -170,7 +180,8 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     for (Curve const& curve : curves) {
         std::vector<SvgPoint> band;
         for (CurveRow const* row : curve.rows) band.push_back({frame.x(row->generation), frame.y(row->high)});
-        for (auto row = curve.rows.rbegin(); row != curve.rows.rend(); ++row) band.push_back({frame.x((*row)->generation), frame.y((*row)->low)});
+        for (auto row = curve.rows.rbegin(); row != curve.rows.rend(); ++row)
+            band.push_back({frame.x((*row)->generation), frame.y((*row)->low)});
         svg.polygon(band, {.fill = curve.color, .opacity = 0.12});
     }
     std::vector<double> ends;
@@ -183,15 +194,18 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     // The lines are named where they end; a thin one leads to a name that had to move.
     std::vector<double> const placed = spread(ends, 16, frame.top + 4, frame.bottom);
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        std::array<SvgPoint, 3> const lead{{{frame.x(curves[i].end()) + 2, ends[i]}, {frame.right + 14, placed[i]}, {frame.right + 20, placed[i]}}};
+        std::array<SvgPoint, 3> const lead{
+            {{frame.x(curves[i].end()) + 2, ends[i]}, {frame.right + 14, placed[i]}, {frame.right + 20, placed[i]}}};
         svg.polyline(lead, {.stroke = curves[i].color, .width = 0.8});
         svg.text({frame.right + 24, placed[i] + 4}, curves[i].label);
     }
-    if (curves.empty()) svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
+    if (curves.empty())
+        svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
     return std::move(svg).finish();
 }
 
-std::string draw_boxplots(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
+                          std::vector<Comparison> const& comparisons) {
     struct Box { std::string name, label; std::string_view color; std::vector<double> balls; };
     std::vector<Box> boxes;
     double highest = 1;
@@ -203,7 +217,8 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results, std:
         boxes.push_back({treatment.name, treatment.label, treatment_color(i), std::move(balls)});
     }
     auto const place = [&](std::string const& name) {
-        return static_cast<std::size_t>(std::find_if(boxes.begin(), boxes.end(), [&](Box const& b) { return b.name == name; }) - boxes.begin());
+        return static_cast<std::size_t>(
+            std::find_if(boxes.begin(), boxes.end(), [&](Box const& b) { return b.name == name; }) - boxes.begin());
     };
     std::vector<Bracket> brackets;
     for (Comparison const& c : comparisons) {
@@ -222,17 +237,19 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results, std:
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         draw_box(svg, frame, centre(i), boxes[i].balls, boxes[i].color);
         svg.text({centre(i), frame.bottom + 20}, boxes[i].label, {.anchor = Anchor::middle});
-        svg.text({centre(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()), {.anchor = Anchor::middle, .size = 10});
+        svg.text({centre(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()),
+                 {.anchor = Anchor::middle, .size = 10});
     }
     for (Bracket const& bracket : brackets) {
-        double const y = frame.top - 12 - bracket_height * static_cast<double>(bracket.level), from = centre(bracket.from) + 5,
-                     to = centre(bracket.to) - 5, middle = (from + to) / 2;
+        double const y = frame.top - 12 - bracket_height * static_cast<double>(bracket.level),
+                     from = centre(bracket.from) + 5, to = centre(bracket.to) - 5, middle = (from + to) / 2;
         std::array<SvgPoint, 4> const shape{{{from, y + 4}, {from, y}, {to, y}, {to, y + 4}}};
         svg.polyline(shape, {.stroke = ink, .width = 0.8});
         svg.rect({middle - 9, y - 4}, 18, 8, {.fill = "#ffffff"});
         svg.text({middle, y + 6}, bracket.mark, {.anchor = Anchor::middle, .size = 14});
     }
-    if (boxes.empty()) svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
+    if (boxes.empty())
+        svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
     return std::move(svg).finish();
 }
 
@@ -253,8 +270,12 @@ std::string draw_panels(CampaignPlan const& plan, Results const& results, std::s
         if (panel.figure != figure || panel.values.empty()) continue;
         bool const product = panel.knowledge.find('*') != std::string::npos;
         TrajectoryPicture picture;
-        picture.title = fmt::format("{}{}", figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(panels.size()))) : "product of the values from ",
-                                    knowledge_label(plan, panel.knowledge));
+        picture.title =
+            fmt::format("{}{}",
+                        figure == "figure5" ? fmt::format("({:c}) values from ",
+                                                          static_cast<char>('a' + static_cast<int>(panels.size())))
+                                            : "product of the values from ",
+                        knowledge_label(plan, panel.knowledge));
         picture.poses = poses;
         picture.carrying = carrying;
         picture.window_length = static_cast<int>((poses.size() + panel.values.size() - 1) / panel.values.size());
@@ -281,7 +302,9 @@ std::string draw_panels(CampaignPlan const& plan, Results const& results, std::s
         body += fmt::format("<svg x=\"0\" y=\"{}\"{}", height, panel.substr(start));
         height += size_of(panel, "height");
     }
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n", width, height, body);
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n",
+        width, height, body);
 }
 
 std::string with_own_ids(std::string svg, std::string_view prefix) {

@@ -23,7 +23,9 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
     std::error_code failed;
     std::filesystem::create_directories(std::filesystem::path{log}.parent_path(), failed);
     int const output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (output < 0) throw Error(fmt::format("cannot write {}", log), std::strerror(errno), "Choose a directory that can be written.");
+    if (output < 0)
+        throw Error(fmt::format("cannot write {}", log), std::strerror(errno),
+                    "Choose a directory that can be written.");
     std::string const heading = fmt::format("== {} {}\n", time_stamp(), shell_text(command));
     [[maybe_unused]] auto const written = ::write(output, heading.data(), heading.size());
 
@@ -43,7 +45,8 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
         sigset_t none;
         sigemptyset(&none);
         ::sigprocmask(SIG_SETMASK, &none, nullptr);
-        for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGCHLD, SIGPIPE}) ::signal(signal, SIG_DFL);
+        for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGCHLD, SIGPIPE})
+            ::signal(signal, SIG_DFL);
         int const nothing = ::open("/dev/null", O_RDONLY);
         ::dup2(nothing, STDIN_FILENO);
         ::dup2(output, STDOUT_FILENO);

@@ -17,8 +17,9 @@ namespace lore {
 
 namespace {
 
-constexpr char rule[] = "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
-                        "level wished; ties: the lowest seed; runs that the campaign names are taken first";
+constexpr char rule[] =
+    "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
+    "level wished; ties: the lowest seed; runs that the campaign names are taken first";
 
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
     return {knowledge.name, knowledge.balls, run.run, run.seed, run.balls};
@@ -44,24 +45,28 @@ bool Choice::covers(CampaignPlan const& plan) const {
     });
 }
 
-Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finished, std::vector<int> without, Choice const& before) {
+Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finished, std::vector<int> without,
+                   Choice const& before) {
     Choice choice;
     choice.chosen = before.chosen;
     choice.considered = finished;
     choice.without = std::move(without);
     std::vector<SourceRun> free = finished;
     std::erase_if(free, [&](SourceRun const& run) {
-        return std::any_of(before.chosen.begin(), before.chosen.end(), [&](ChosenRun const& taken) { return taken.run == run.run; });
+        return std::any_of(before.chosen.begin(), before.chosen.end(),
+                           [&](ChosenRun const& taken) { return taken.run == run.run; });
     });
     auto take = [&](std::vector<SourceRun>::iterator at) { SourceRun const run = *at; free.erase(at); return run; };
 
     std::vector<KnowledgePlan const*> wishes;
     for (KnowledgePlan const& knowledge : plan.knowledge)
-        if (knowledge.kind == KnowledgeKind::lineage && before.find(knowledge.name) == nullptr) wishes.push_back(&knowledge);
+        if (knowledge.kind == KnowledgeKind::lineage && before.find(knowledge.name) == nullptr)
+            wishes.push_back(&knowledge);
 
     for (KnowledgePlan const* wish : wishes) {
         if (wish->run == 0) continue;
-        auto const named = std::find_if(free.begin(), free.end(), [&](SourceRun const& r) { return r.run == wish->run; });
+        auto const named =
+            std::find_if(free.begin(), free.end(), [&](SourceRun const& r) { return r.run == wish->run; });
         if (named == free.end())
             throw Error(fmt::format("cannot take source run {} for '{}'", wish->run, wish->name),
                         "it is not finished, or serves another knowledge base", "Look at 'lore-campaign status'.");
@@ -70,12 +75,14 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
     for (KnowledgePlan const* wish : wishes) {
         if (wish->run != 0) continue;
         auto const nearest = std::min_element(free.begin(), free.end(), [&](SourceRun const& a, SourceRun const& b) {
-            return std::tuple{std::abs(a.balls - wish->balls), a.seed} < std::tuple{std::abs(b.balls - wish->balls), b.seed};
+            return std::tuple{std::abs(a.balls - wish->balls), a.seed} <
+                   std::tuple{std::abs(b.balls - wish->balls), b.seed};
         });
         if (nearest == free.end())
-            throw Error(fmt::format("no source run is left for '{}'", wish->name),
-                        fmt::format("{} runs are finished, {} knowledge bases need one each", finished.size(), wishes.size()),
-                        "Look at 'lore-campaign status'.");
+            throw Error(
+                fmt::format("no source run is left for '{}'", wish->name),
+                fmt::format("{} runs are finished, {} knowledge bases need one each", finished.size(), wishes.size()),
+                "Look at 'lore-campaign status'.");
         choice.chosen.push_back(chosen_from(*wish, take(nearest)));
     }
     return choice;
@@ -102,9 +109,11 @@ Choice read_choice(std::string const& path) {
         Choice choice;
         for (auto const& entry : document.at("chosen"))
             choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), whole_number<int>(entry.at("run")),
-                                     whole_number<std::uint64_t>(entry.at("seed")), whole_number<int>(entry.at("balls"))});
+                                     whole_number<std::uint64_t>(entry.at("seed")),
+                                     whole_number<int>(entry.at("balls"))});
         for (auto const& run : document.at("considered"))
-            choice.considered.push_back({whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")), whole_number<int>(run.at("balls"))});
+            choice.considered.push_back({whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")),
+                                         whole_number<int>(run.at("balls"))});
         for (auto const& run : document.at("without")) choice.without.push_back(whole_number<int>(run));
         return choice;
     } catch (std::exception const& error) {

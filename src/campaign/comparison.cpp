@@ -18,8 +18,8 @@ std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results con
             auto const first = results.final_balls(a), second = results.final_balls(b);
             if (first.empty() || second.empty()) continue;
             MannWhitney const test = mann_whitney(first, second);
-            comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u, test.p, test.p,
-                                   vargha_delaney_a12(first, second), test.exact});
+            comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u,
+                                   test.p, test.p, vargha_delaney_a12(first, second), test.exact});
             p_values.push_back(test.p);
         }
     }
@@ -71,14 +71,27 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
 
     document["comparisons"] = Json::array();
     for (Comparison const& c : comparisons)
-        document["comparisons"].push_back({{"a", c.a}, {"b", c.b}, {"n_a", c.n_a}, {"n_b", c.n_b}, {"u", c.u}, {"p", c.p},
-                                           {"p_holm", c.p_holm}, {"a12", c.a12}, {"exact", c.exact}});
+        document["comparisons"].push_back({{"a", c.a},
+                                           {"b", c.b},
+                                           {"n_a", c.n_a},
+                                           {"n_b", c.n_b},
+                                           {"u", c.u},
+                                           {"p", c.p},
+                                           {"p_holm", c.p_holm},
+                                           {"a12", c.a12},
+                                           {"exact", c.exact}});
     document["knowledge"] = Json::array();
     for (KnowledgeRow const& base : results.bases)
-        document["knowledge"].push_back({{"knowledge", base.knowledge}, {"kind", base.kind}, {"source_run", base.source_run},
-                                         {"seed", base.seed}, {"balls", base.balls}, {"individuals", base.individuals},
-                                         {"windows", base.windows}, {"features", base.features},
-                                         {"least_value", base.least_value}, {"greatest_value", base.greatest_value}});
+        document["knowledge"].push_back({{"knowledge", base.knowledge},
+                                         {"kind", base.kind},
+                                         {"source_run", base.source_run},
+                                         {"seed", base.seed},
+                                         {"balls", base.balls},
+                                         {"individuals", base.individuals},
+                                         {"windows", base.windows},
+                                         {"features", base.features},
+                                         {"least_value", base.least_value},
+                                         {"greatest_value", base.greatest_value}});
     return document.dump(2) + "\n";
 }
 

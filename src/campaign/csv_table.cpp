@@ -36,7 +36,8 @@ CsvTable CsvTable::read(std::string const& path) {
     table.path_ = path;
     std::string line;
     if (!file || !std::getline(file, line))
-        throw Error(fmt::format("cannot read {}", path), "no such file, not readable, or empty", "Make it again from the runs.");
+        throw Error(fmt::format("cannot read {}", path), "no such file, not readable, or empty",
+                    "Make it again from the runs.");
     auto const without_return = [](std::string& text) { if (!text.empty() && text.back() == '\r') text.pop_back(); };
     without_return(line);
     table.header_ = fields_of(line);
@@ -46,7 +47,8 @@ CsvTable CsvTable::read(std::string const& path) {
         table.rows_.push_back(fields_of(line));
         if (table.rows_.back().size() != table.header_.size())
             throw Error(fmt::format("cannot read {}", path),
-                        fmt::format("line {} has {} fields, the header {}", number, table.rows_.back().size(), table.header_.size()),
+                        fmt::format("line {} has {} fields, the header {}", number, table.rows_.back().size(),
+                                    table.header_.size()),
                         "Make it again from the runs.");
     }
     return table;
@@ -55,12 +57,14 @@ CsvTable CsvTable::read(std::string const& path) {
 std::size_t CsvTable::column(std::string_view name) const {
     for (std::size_t c = 0; c < header_.size(); ++c)
         if (header_[c] == name) return c;
-    throw Error(fmt::format("cannot read {}", path_), fmt::format("it has no column '{}'", name), "Make it again from the runs.");
+    throw Error(fmt::format("cannot read {}", path_), fmt::format("it has no column '{}'", name),
+                "Make it again from the runs.");
 }
 
 void CsvTable::fail(std::size_t row, std::size_t column, std::string_view expected) const {
-    throw Error(fmt::format("{}, line {}: {} is '{}'", path_, row + 2, header_[column], rows_[row][column].substr(0, 40)),
-                fmt::format("{} is expected", expected), "Make it again from the runs.");
+    throw Error(
+        fmt::format("{}, line {}: {} is '{}'", path_, row + 2, header_[column], rows_[row][column].substr(0, 40)),
+        fmt::format("{} is expected", expected), "Make it again from the runs.");
 }
 
 double CsvTable::number(std::size_t row, std::size_t column) const {

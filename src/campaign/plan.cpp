@@ -38,15 +38,18 @@ Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::
     Treatment treatment;
     treatment.name = name.empty() ? table.required_string("name") : std::move(name);
     if (!is_name(treatment.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
-    if (reserved_names.contains(treatment.name)) table.fail("name", fmt::format("'{}' is reserved", treatment.name), "Choose another.");
+    if (reserved_names.contains(treatment.name))
+        table.fail("name", fmt::format("'{}' is reserved", treatment.name), "Choose another.");
     treatment.label = table.string("label").value_or(treatment.name);
     treatment.config = table.required_string("config");
     treatment.knowledge = table.string("knowledge").value_or("");
     treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
-    treatment.first_seed = static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
+    treatment.first_seed =
+        static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
     std::int64_t const generations = table.integer("generations", 1, 10'000'000).value_or(defaults.generations);
     if (generations != 0) treatment.overrides.push_back(fmt::format("evolution.generations={}", generations));
-    for (std::string& setting : table.strings("set").value_or(std::vector<std::string>{})) treatment.overrides.push_back(std::move(setting));
+    for (std::string& setting : table.strings("set").value_or(std::vector<std::string>{}))
+        treatment.overrides.push_back(std::move(setting));
     table.reject_unknown();
     return treatment;
 }
@@ -77,22 +80,30 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
     } else if (key == "run") {
         plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
     } else {
-        plan.kind = key == "all_of" ? KnowledgeKind::all : key == "random_of" ? KnowledgeKind::random : KnowledgeKind::reduced;
+        plan.kind = key == "all_of"      ? KnowledgeKind::all
+                    : key == "random_of" ? KnowledgeKind::random
+                                         : KnowledgeKind::reduced;
         plan.base = table.required_string(key);
     }
-    if (plan.kind == KnowledgeKind::random) plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
+    if (plan.kind == KnowledgeKind::random)
+        plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
     else plan.options = table.strings("options").value_or(std::vector<std::string>{});
     if (plan.kind == KnowledgeKind::reduced) {
         std::string_view const how = only_key(table, {"top", "least_value", "consensus"});
-        if (how == "top") plan.options.insert(plan.options.begin(), {"--top", fmt::format("{}", *table.integer("top", 1, 100'000'000))});
-        if (how == "least_value") plan.options.insert(plan.options.begin(), {"--min-value", fmt::format("{}", *table.number("least_value", -1, 1e6))});
+        if (how == "top")
+            plan.options.insert(plan.options.begin(),
+                                {"--top", fmt::format("{}", *table.integer("top", 1, 100'000'000))});
+        if (how == "least_value")
+            plan.options.insert(plan.options.begin(),
+                                {"--min-value", fmt::format("{}", *table.number("least_value", -1, 1e6))});
         if (how == "consensus") plan.consensus = *table.strings("consensus");
     }
     table.reject_unknown();
     return plan;
 }
 
-void check_name(TomlTable const& document, std::string_view key, std::string const& wanted, std::vector<std::string> const& known) {
+void check_name(TomlTable const& document, std::string_view key, std::string const& wanted,
+                std::vector<std::string> const& known) {
     if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
     std::vector<std::string_view> const words(known.begin(), known.end());
     std::string const meant = nearest_word(wanted, words.data(), words.size());
@@ -110,7 +121,8 @@ Treatment const& CampaignPlan::treatment(std::string_view name) const {
 }
 
 KnowledgePlan const& CampaignPlan::knowledge_base(std::string_view name) const {
-    auto const found = std::find_if(knowledge.begin(), knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
+    auto const found =
+        std::find_if(knowledge.begin(), knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
     assert(found != knowledge.end());
     return *found;
 }
@@ -141,7 +153,8 @@ CampaignPlan read_campaign(std::string const& path) {
             table.fail("name", fmt::format("'{}' is defined twice", knowledge.name), "Rename one.");
         if (!knowledge.base.empty()) check_name(table, "name", knowledge.base, bases);
         for (std::string const& other : knowledge.consensus) check_name(table, "consensus", other, bases);
-        if (knowledge.run > plan.source.runs) table.fail("run", fmt::format("there are only {} source runs", plan.source.runs));
+        if (knowledge.run > plan.source.runs)
+            table.fail("run", fmt::format("there are only {} source runs", plan.source.runs));
         bases.push_back(knowledge.name);
         plan.knowledge.push_back(std::move(knowledge));
         if (plan.knowledge.back().kind == KnowledgeKind::all &&
@@ -151,7 +164,8 @@ CampaignPlan read_campaign(std::string const& path) {
     auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
                                              [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });
     if (from_lineages > plan.source.runs)
-        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}", from_lineages, plan.source.runs));
+        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}",
+                                               from_lineages, plan.source.runs));
 
     std::vector<std::string> names;
     for (TomlTable const& table : document.tables("treatment")) {
@@ -167,7 +181,8 @@ CampaignPlan read_campaign(std::string const& path) {
     if (auto const report = document.table("report")) {
         if (auto order = report->strings("order")) {
             for (std::string const& name : *order) check_name(*report, "order", name, names);
-            if (std::set<std::string>(order->begin(), order->end()).size() != names.size() || order->size() != names.size())
+            if (std::set<std::string>(order->begin(), order->end()).size() != names.size() ||
+                order->size() != names.size())
                 report->fail("order", "it must name every treatment once");
             plan.report_order = *std::move(order);
         }
@@ -185,8 +200,10 @@ CampaignPlan read_campaign(std::string const& path) {
     }
     if (auto const cluster = document.table("cluster")) {
         plan.cluster.time_limit = cluster->string("time_limit").value_or(plan.cluster.time_limit);
-        plan.cluster.warning_seconds = static_cast<int>(cluster->integer("warning_seconds", 1, 3600).value_or(plan.cluster.warning_seconds));
-        plan.cluster.concurrent = static_cast<int>(cluster->integer("concurrent", 1, 100'000).value_or(plan.cluster.concurrent));
+        plan.cluster.warning_seconds =
+            static_cast<int>(cluster->integer("warning_seconds", 1, 3600).value_or(plan.cluster.warning_seconds));
+        plan.cluster.concurrent =
+            static_cast<int>(cluster->integer("concurrent", 1, 100'000).value_or(plan.cluster.concurrent));
         plan.cluster.options = cluster->strings("options").value_or(std::vector<std::string>{});
         cluster->reject_unknown();
     }

@@ -17,13 +17,17 @@ namespace {
 /// The CSV files may be those of another campaign: every name in them must be known.
 void check_names(CampaignPlan const& plan, Results const& results) {
     auto const check_treatment = [&](std::string_view file, std::string_view name) {
-        if (name == plan.source.name || std::find(plan.report_order.begin(), plan.report_order.end(), name) != plan.report_order.end()) return;
-        throw Error(fmt::format("cannot report with {}", plan.path), fmt::format("{} tells of a treatment '{}' that it does not know", file, name),
+        if (name == plan.source.name ||
+            std::find(plan.report_order.begin(), plan.report_order.end(), name) != plan.report_order.end())
+            return;
+        throw Error(fmt::format("cannot report with {}", plan.path),
+                    fmt::format("{} tells of a treatment '{}' that it does not know", file, name),
                     "Use the campaign's file that made these results.");
     };
     for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
     for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
-    for (Replay const& replay : results.replays) check_treatment("replay.csv", std::string_view{replay.step}.substr(0, replay.step.find('/')));
+    for (Replay const& replay : results.replays)
+        check_treatment("replay.csv", std::string_view{replay.step}.substr(0, replay.step.find('/')));
 }
 
 } // namespace
@@ -49,7 +53,8 @@ void write_report(CampaignPlan const& plan, CampaignDirectory const& directory) 
         write_file_atomically(directory.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
         write_file_atomically(directory.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
     }
-    write_file_atomically(directory.file("report.html"), std::string_view{report_page(plan, results, comparisons, figures)});
+    write_file_atomically(directory.file("report.html"),
+                          std::string_view{report_page(plan, results, comparisons, figures)});
 }
 
 } // namespace lore

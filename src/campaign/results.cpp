@@ -32,7 +32,8 @@ struct FinishedRun {
     std::vector<double> balls;   ///< best-of-run by generation, from 0
 };
 
-std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory, Treatment const& treatment) {
+std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                       Treatment const& treatment) {
     std::vector<FinishedRun> finished;
     for (int run = 1; run <= treatment.runs; ++run) {
         Step const step{run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, {}};
@@ -40,10 +41,18 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
         std::string const path = directory.run(step.name);
         Manifest const manifest = read_manifest((fs::path{path} / run_file::manifest).string());
         std::vector<ProgressRow> const progress = read_progress((fs::path{path} / run_file::progress).string());
-        if (progress.empty()) throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut", "Remove the run to make it again.");
+        if (progress.empty())
+            throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut",
+                        "Remove the run to make it again.");
         FinishedRun entry;
-        entry.row = {treatment.name, run, manifest.seed, progress.back().best_balls, progress.back().generation,
-                     progress.back().evaluations, manifest.signature, fmt::format("{} ({})", manifest.build.version, manifest.build.commit)};
+        entry.row = {treatment.name,
+                     run,
+                     manifest.seed,
+                     progress.back().best_balls,
+                     progress.back().generation,
+                     progress.back().evaluations,
+                     manifest.signature,
+                     fmt::format("{} ({})", manifest.build.version, manifest.build.commit)};
         for (ProgressRow const& row : progress) entry.balls.push_back(row.best_balls);
         finished.push_back(std::move(entry));
     }
@@ -66,7 +75,8 @@ std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedR
     MeanBand const band = bootstrap_mean_band(curves);
     std::vector<CurveRow> rows;
     for (std::size_t c = 0; c < generations.size(); ++c)
-        rows.push_back({treatment.name, static_cast<int>(generations[c]), static_cast<int>(runs.size()), band.mean[c], band.low[c], band.high[c]});
+        rows.push_back({treatment.name, static_cast<int>(generations[c]), static_cast<int>(runs.size()), band.mean[c],
+                        band.low[c], band.high[c]});
     return rows;
 }
 
@@ -75,7 +85,8 @@ KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& kn
     return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
 }
 
-std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory, std::optional<Choice> const& choice) {
+std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                         std::optional<Choice> const& choice) {
     std::vector<KnowledgeRow> rows;
     for (KnowledgePlan const& planned : plan.knowledge) {
         ChosenRun const* const source = choice ? choice->find(origin_of(plan, planned).name) : nullptr;
@@ -97,15 +108,16 @@ Replay replay_of(RunDirectory const& run, std::string const& step) {
     Replay replay{step, {}};
     WorldState before = start_world(run.arena);
     run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
-        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open, before.switch_lit,
-                                before.balls, before.collected});
+        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open,
+                                before.switch_lit, before.balls, before.collected});
         before = view.world;
     });
     return replay;
 }
 
 /// Values of the windows by each base, and their product where several are asked for together.
-std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory const& directory, RunDirectory const& run) {
+std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                   RunDirectory const& run) {
     Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
     auto values_by = [&](std::string const& name) {
         Shaper const shaper{read_knowledge_base(directory.knowledge(name))};
@@ -128,7 +140,8 @@ std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory c
             std::vector<double> const values = values_by(name);
             if (product.values.empty()) product.values.assign(values.size(), 1.0);
             if (values.size() != product.values.size())
-                throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name), "Name others in [report].");
+                throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
+                            "Name others in [report].");
             for (std::size_t w = 0; w < values.size(); ++w) product.values[w] *= std::max(0.0, values[w]);
         }
         panels.push_back(std::move(product));
@@ -160,7 +173,8 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
     auto const choice = recorded_choice(directory);
     results.bases = knowledge_rows(plan, directory, choice);
 
-    ChosenRun const* const shown = choice && !plan.figures.trajectory.empty() ? choice->find(plan.figures.trajectory) : nullptr;
+    ChosenRun const* const shown =
+        choice && !plan.figures.trajectory.empty() ? choice->find(plan.figures.trajectory) : nullptr;
     if (shown != nullptr) {
         std::string const step = run_step(plan.source.name, shown->run);
         RunDirectory const run = open_run(directory.run(step));

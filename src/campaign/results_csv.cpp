@@ -37,35 +37,38 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
     CsvText runs{"treatment,run,seed,balls,generations,evaluations,signature,version"};
     for (RunRow const& run : results.runs) {
         final_balls.row("{},{},{},{}", run.treatment, run.run, run.seed, run.balls);
-        runs.row("{},{},{},{},{},{},{},{}", run.treatment, run.run, run.seed, run.balls, run.generations, run.evaluations, run.signature, run.version);
+        runs.row("{},{},{},{},{},{},{},{}", run.treatment, run.run, run.seed, run.balls, run.generations,
+                 run.evaluations, run.signature, run.version);
     }
     final_balls.write(directory, "final.csv");
     runs.write(directory, "runs.csv");
 
     CsvText curves{"treatment,generation,runs,mean,low,high"};
     for (CurveRow const& row : results.curves)
-        curves.row("{},{},{},{:.4f},{:.4f},{:.4f}", row.treatment, row.generation, row.runs, row.mean, row.low, row.high);
+        curves.row("{},{},{},{:.4f},{:.4f},{:.4f}", row.treatment, row.generation, row.runs, row.mean, row.low,
+                   row.high);
     curves.write(directory, "curves.csv");
 
     CsvText bases{"knowledge,kind,source_run,seed,balls,individuals,windows,features,least_value,greatest_value"};
     for (KnowledgeRow const& b : results.bases)
-        bases.row("{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals, b.windows, b.features,
-                  b.least_value, b.greatest_value);
+        bases.row("{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals,
+                  b.windows, b.features, b.least_value, b.greatest_value);
     bases.write(directory, "kbs.csv");
 
     CsvText replay{"replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected"};
     for (Replay const& shown : results.replays) {
         for (std::size_t k = 0; k < shown.steps.size(); ++k) {
             ReplayStep const& s = shown.steps[k];
-            replay.row("{},{},{:.2f},{:.2f},{:.3f},{:d},{:d},{:d},{},{}", shown.step, k, s.x, s.y, s.theta, s.carrying, s.door_open, s.switch_on,
-                       s.balls_mask, s.collected);
+            replay.row("{},{},{:.2f},{:.2f},{:.3f},{:d},{:d},{:d},{},{}", shown.step, k, s.x, s.y, s.theta, s.carrying,
+                       s.door_open, s.switch_on, s.balls_mask, s.collected);
         }
     }
     replay.write(directory, "replay.csv");
 
     CsvText values{"figure,knowledge,window,value"};
     for (PanelValues const& panel : results.panels)
-        for (std::size_t w = 0; w < panel.values.size(); ++w) values.row("{},{},{},{:.4f}", panel.figure, panel.knowledge, w, panel.values[w]);
+        for (std::size_t w = 0; w < panel.values.size(); ++w)
+            values.row("{},{},{},{:.4f}", panel.figure, panel.knowledge, w, panel.values[w]);
     values.write(directory, "values.csv");
 }
 
@@ -91,17 +94,19 @@ Results read_results(CampaignDirectory const& directory) {
     }
     CsvTable const curves = CsvTable::read(directory.file("curves.csv"));
     for (std::size_t r = 0; r < curves.rows(); ++r)
-        results.curves.push_back({curves.text(r, curves.column("treatment")), curves.integer(r, curves.column("generation")),
+        results.curves.push_back({curves.text(r, curves.column("treatment")),
+                                  curves.integer(r, curves.column("generation")),
                                   curves.integer(r, curves.column("runs")), curves.number(r, curves.column("mean")),
                                   curves.number(r, curves.column("low")), curves.number(r, curves.column("high"))});
     if (there("kbs.csv")) {
         CsvTable const bases = CsvTable::read(directory.file("kbs.csv"));
         for (std::size_t r = 0; r < bases.rows(); ++r)
-            results.bases.push_back({bases.text(r, bases.column("knowledge")), bases.text(r, bases.column("kind")),
-                                     bases.integer(r, bases.column("source_run")), bases.natural(r, bases.column("seed")),
-                                     bases.integer(r, bases.column("balls")), bases.natural(r, bases.column("individuals")),
-                                     bases.natural(r, bases.column("windows")), bases.integer(r, bases.column("features")),
-                                     bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value"))});
+            results.bases.push_back(
+                {bases.text(r, bases.column("knowledge")), bases.text(r, bases.column("kind")),
+                 bases.integer(r, bases.column("source_run")), bases.natural(r, bases.column("seed")),
+                 bases.integer(r, bases.column("balls")), bases.natural(r, bases.column("individuals")),
+                 bases.natural(r, bases.column("windows")), bases.integer(r, bases.column("features")),
+                 bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value"))});
     }
     if (there("replay.csv")) {
         CsvTable const replay = CsvTable::read(directory.file("replay.csv"));
@@ -123,8 +128,10 @@ Results read_results(CampaignDirectory const& directory) {
     if (there("values.csv")) {
         CsvTable const values = CsvTable::read(directory.file("values.csv"));
         for (std::size_t r = 0; r < values.rows(); ++r) {
-            std::string const &figure = values.text(r, values.column("figure")), &knowledge = values.text(r, values.column("knowledge"));
-            if (results.panels.empty() || results.panels.back().figure != figure || results.panels.back().knowledge != knowledge)
+            std::string const &figure = values.text(r, values.column("figure")),
+                              &knowledge = values.text(r, values.column("knowledge"));
+            if (results.panels.empty() || results.panels.back().figure != figure ||
+                results.panels.back().knowledge != knowledge)
                 results.panels.push_back({figure, knowledge, {}});
             results.panels.back().values.push_back(values.number(r, values.column("value")));
         }

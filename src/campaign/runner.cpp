@@ -50,7 +50,8 @@ public:
         ::sigprocmask(SIG_SETMASK, &former_mask_, nullptr);
     }
     void sleep(double seconds) const {
-        timespec const time{static_cast<time_t>(seconds), static_cast<long>((seconds - static_cast<double>(static_cast<time_t>(seconds))) * 1e9)};
+        timespec const time{static_cast<time_t>(seconds),
+                            static_cast<long>((seconds - static_cast<double>(static_cast<time_t>(seconds))) * 1e9)};
         ::ppoll(nullptr, 0, &time, &former_mask_);
     }
 
@@ -102,7 +103,14 @@ public:
         } catch (...) {
             // Our own trouble (a full disk, say) must not leave runs behind that nobody watches.
             for (Task const& task : tasks_) if (task.pid != 0) ::kill(task.pid, SIGUSR1);
-            while (working() != 0) { signals_.sleep(1); for (Task& task : tasks_) if (task.pid != 0 && poll_child(task.pid)) { task.pid = 0; task.phase = Phase::waiting; } }
+            while (working() != 0) {
+                signals_.sleep(1);
+                for (Task& task : tasks_)
+                    if (task.pid != 0 && poll_child(task.pid)) {
+                        task.pid = 0;
+                        task.phase = Phase::waiting;
+                    }
+            }
             throw;
         }
         return summary();
@@ -111,7 +119,8 @@ public:
 private:
     int working() const { return count(Phase::working); }
     int count(Phase phase) const {
-        return static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [&](Task const& t) { return t.phase == phase; }));
+        return static_cast<int>(
+            std::count_if(tasks_.begin(), tasks_.end(), [&](Task const& t) { return t.phase == phase; }));
     }
     bool unfinished() const { return count(Phase::waiting) + count(Phase::working) + count(Phase::elsewhere) > 0; }
 
@@ -142,7 +151,8 @@ private:
         for (std::string const& group : task.step.after) {
             bool const settled_is_enough = task.step.kind == StepKind::choose;   // it can do without runs that failed
             for (Step const& needed : steps_of_group_.at(group)) {
-                auto const ours = std::find_if(tasks_.begin(), tasks_.end(), [&](Task const& t) { return t.step.name == needed.name; });
+                auto const ours = std::find_if(tasks_.begin(), tasks_.end(),
+                                               [&](Task const& t) { return t.step.name == needed.name; });
                 if (ours == tasks_.end()) {
                     if (settled_is_enough || done_on_disk(needed)) continue;
                     missing = needed.name;
@@ -195,13 +205,16 @@ private:
         if (task.step.kind == StepKind::choose) { choose(task); return; }
         auto const choice = recorded_choice(directory_);
         auto const command = command_of(plan_, directory_, options_.launcher, task.step, choice ? &*choice : nullptr);
-        std::string const parent = task.is_run() ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
+        std::string const parent =
+            task.is_run() ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
         std::filesystem::create_directories(std::filesystem::path{parent}.parent_path());
         task.started_at = task.generation;
         task.pid = start_child(command, directory_.log(task.step.name), task.lock->descriptor());
         task.phase = Phase::working;
-        board_.announce(fmt::format("{} {}", task.step.name, task.generation > 0
-            ? fmt::format("resumed at generation {} of {}", task.generation, task.generations) : std::string{"started"}));
+        board_.announce(fmt::format(
+            "{} {}", task.step.name,
+            task.generation > 0 ? fmt::format("resumed at generation {} of {}", task.generation, task.generations)
+                                : std::string{"started"}));
     }
 
     void choose(Task& task) {
@@ -209,7 +222,8 @@ private:
         std::vector<int> without;
         for (Step const& step : steps_of_group_.at("source")) {
             StepState const state = state_of(plan_, directory_, step);
-            if (state.status == StepStatus::done) finished.push_back({step.run, seed_of(plan_.source, step.run), state.best_balls});
+            if (state.status == StepStatus::done)
+                finished.push_back({step.run, seed_of(plan_.source, step.run), state.best_balls});
             else without.push_back(step.run);
         }
         try {
@@ -218,7 +232,8 @@ private:
             std::filesystem::create_directories(std::filesystem::path{directory_.choice()}.parent_path());
             write_choice(directory_.choice(), choice);
             for (ChosenRun const& chosen : choice.chosen)
-                board_.announce(fmt::format("{} comes from source run {} (seed {}, {} balls)", chosen.knowledge, chosen.run, chosen.seed, chosen.balls));
+                board_.announce(fmt::format("{} comes from source run {} (seed {}, {} balls)", chosen.knowledge,
+                                            chosen.run, chosen.seed, chosen.balls));
             task.phase = Phase::done;
         } catch (Error const& error) {
             task.phase = Phase::failed;
@@ -250,7 +265,8 @@ private:
     void judge(Task& task, ChildEnd const& end) {
         settle_from_disk(task, false);
         if (task.phase == Phase::done) {
-            board_.announce(fmt::format("{} done{}", task.step.name, task.is_run() ? fmt::format(", {} balls", task.best_balls) : ""));
+            board_.announce(fmt::format("{} done{}", task.step.name,
+                                        task.is_run() ? fmt::format(", {} balls", task.best_balls) : ""));
             return;
         }
         if (stop_requests > 0) return;   // resumed next time
@@ -267,14 +283,16 @@ private:
         }
         task.phase = Phase::failed;
         write_failure(directory_, task.step, {task.attempts, how, log});
-        board_.complain(fmt::format("{} failed twice ({}); {} ends with:", task.step.name, how, directory_.log(task.step.name)));
+        board_.complain(
+            fmt::format("{} failed twice ({}); {} ends with:", task.step.name, how, directory_.log(task.step.name)));
         for (std::string const& line : log) board_.complain("    " + line);
     }
 
     void pass_on_stop() {
         int const signal = stops_passed_on_ == 0 ? SIGUSR1 : SIGTERM;
         stops_passed_on_ = stop_requests;
-        board_.announce(signal == SIGUSR1 ? "stopping at the next checkpoint; once more to stop at once" : "stopping at once");
+        board_.announce(signal == SIGUSR1 ? "stopping at the next checkpoint; once more to stop at once"
+                                          : "stopping at once");
         for (Task const& task : tasks_)
             if (task.pid != 0) ::kill(task.pid, task.is_run() ? signal : SIGTERM);
     }
@@ -298,7 +316,9 @@ private:
         double left = 0;
         std::map<std::string, double> cost;
         for (Task const& task : tasks_) {
-            if (!task.is_run() || task.phase == Phase::done || task.phase == Phase::failed || task.phase == Phase::blocked) continue;
+            if (!task.is_run() || task.phase == Phase::done || task.phase == Phase::failed ||
+                task.phase == Phase::blocked)
+                continue;
             auto const known = cost.try_emplace(task.step.group, -1).first;
             if (known->second < 0) known->second = seconds_per_generation(task.step.group);
             left += known->second * (task.generations - task.generation);
@@ -306,8 +326,9 @@ private:
         left /= options_.jobs;
         double const done = count(Phase::done), all = static_cast<double>(tasks_.size());
         std::string const eta = left > 0 ? fmt::format(", about {} left", duration_text(left)) : "";
-        return fmt::format("{} {} of {} steps done, {} running, {} failed{}", bar(done / all, 20), count(Phase::done), tasks_.size(),
-                           working() + count(Phase::elsewhere), count(Phase::failed) + count(Phase::blocked), eta);
+        return fmt::format("{} {} of {} steps done, {} running, {} failed{}", bar(done / all, 20), count(Phase::done),
+                           tasks_.size(), working() + count(Phase::elsewhere),
+                           count(Phase::failed) + count(Phase::blocked), eta);
     }
 
     void show() {
@@ -321,11 +342,17 @@ private:
         std::vector<std::string> lines;
         for (Task const& task : tasks_) {
             if (task.phase != Phase::working) continue;
-            if (!task.is_run() || task.generations == 0) { lines.push_back(fmt::format("  {:<22} at work", task.step.name)); continue; }
-            double const left = task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
+            if (!task.is_run() || task.generations == 0) {
+                lines.push_back(fmt::format("  {:<22} at work", task.step.name));
+                continue;
+            }
+            double const left =
+                task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
             lines.push_back(fmt::format("  {:<22} {} {:>6}/{}  best {} {} {}", task.step.name,
-                                        bar(static_cast<double>(task.generation) / task.generations, 20), task.generation, task.generations,
-                                        task.best_balls, task.best_balls == 1 ? "ball " : "balls", left > 0 ? fmt::format(" {} left", duration_text(left)) : ""));
+                                        bar(static_cast<double>(task.generation) / task.generations, 20),
+                                        task.generation, task.generations, task.best_balls,
+                                        task.best_balls == 1 ? "ball " : "balls",
+                                        left > 0 ? fmt::format(" {} left", duration_text(left)) : ""));
         }
         lines.push_back(overall());
         board_.draw(std::move(lines));
@@ -335,7 +362,8 @@ private:
         int const failed = count(Phase::failed), blocked = count(Phase::blocked);
         bool const interrupted = unfinished();
         board_.announce(fmt::format("{} of {} steps done{}{}{}", count(Phase::done), tasks_.size(),
-                                    failed > 0 ? fmt::format(", {} failed", failed) : "", blocked > 0 ? fmt::format(", {} wait for those", blocked) : "",
+                                    failed > 0 ? fmt::format(", {} failed", failed) : "",
+                                    blocked > 0 ? fmt::format(", {} wait for those", blocked) : "",
                                     interrupted ? "; run it again to go on" : ""));
         if (interrupted) return ExitCode::interrupted;
         return failed + blocked > 0 ? ExitCode::failure : ExitCode::done;
@@ -359,7 +387,8 @@ ExitCode run_campaign(CampaignPlan const& plan, CampaignDirectory const& directo
     std::error_code failed;
     std::filesystem::create_directories(directory.path(), failed);
     if (!std::filesystem::is_directory(directory.path()))
-        throw Error(fmt::format("cannot make the directory {}", directory.path()), failed.message(), "Choose another with --dir.");
+        throw Error(fmt::format("cannot make the directory {}", directory.path()), failed.message(),
+                    "Choose another with --dir.");
     return Runner{plan, directory, options}.run();
 }
 

@@ -45,7 +45,8 @@ std::string flat(std::string text) {
 std::string output_of(std::vector<std::string> const& command) {
     std::string const line = shell_text(command) + " 2>&1";
     FILE* const pipe = ::popen(line.c_str(), "r");
-    if (pipe == nullptr) throw Error(fmt::format("cannot start {}", command.front()), "no process could be made", "Try again.");
+    if (pipe == nullptr)
+        throw Error(fmt::format("cannot start {}", command.front()), "no process could be made", "Try again.");
     std::string text;
     std::array<char, 4096> chunk;
     for (std::size_t got; (got = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) text.append(chunk.data(), got);
@@ -53,12 +54,13 @@ std::string output_of(std::vector<std::string> const& command) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         throw Error(fmt::format("{} failed", command.front()), text.empty() ? "it said nothing" : text,
-                    WEXITSTATUS(status) == 127 ? "Call it where Slurm's programs are, or use 'lore-campaign run'." : "Mend that and submit again.");
+                    WEXITSTATUS(status) == 127 ? "Call it where Slurm's programs are, or use 'lore-campaign run'."
+                                               : "Mend that and submit again.");
     return text;
 }
 
-std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher, std::string const& program,
-                      BatchJob const& job) {
+std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
+                      std::string const& program, BatchJob const& job) {
     std::string text = "#!/usr/bin/env bash\n";
     auto option = [&](std::string const& words) { text += fmt::format("#SBATCH {}\n", words); };
     option(fmt::format("--job-name=lore-{}", flat(job.group)));
@@ -68,21 +70,28 @@ std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directo
     option(fmt::format("--signal=B:USR1@{}", plan.cluster.warning_seconds));
     option("--requeue");
     option("--open-mode=append");
-    option(fmt::format("--output={}", directory.file(fmt::format("logs/slurm-{}{}.out", flat(job.group), job.tasks.empty() ? "" : "-%a"))));
+    option(fmt::format("--output={}", directory.file(fmt::format("logs/slurm-{}{}.out", flat(job.group),
+                                                                 job.tasks.empty() ? "" : "-%a"))));
     for (std::string const& words : plan.cluster.options) option(words);
     text += "\n";
 
     std::vector<std::string> const campaign{plan.path, "--dir", directory.path()};
-    if (job.group == "report") return text + fmt::format("exec {} report {}\n", shell_text({program}), shell_text(campaign));
+    if (job.group == "report")
+        return text + fmt::format("exec {} report {}\n", shell_text({program}), shell_text(campaign));
 
-    text += job.tasks.empty() ? fmt::format("step={}\nself=$SLURM_JOB_ID\n", shell_text({job.group}))
-                              : fmt::format("step=$(printf '{}/%03d' \"$SLURM_ARRAY_TASK_ID\")\nself=${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\n", job.group);
+    text += job.tasks.empty()
+                ? fmt::format("step={}\nself=$SLURM_JOB_ID\n", shell_text({job.group}))
+                : fmt::format("step=$(printf '{}/%03d' "
+                              "\"$SLURM_ARRAY_TASK_ID\")\nself=${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\n",
+                              job.group);
     std::vector<std::string> options{"--jobs", "1", "--ranks", std::to_string(launcher.ranks)};
     if (launcher.ranks > 1) options.insert(options.end(), {"--launch", launcher.launch});
     if (!launcher.programs.empty()) options.insert(options.end(), {"--programs", launcher.programs});
-    text += fmt::format("{} run {} {} --only \"$step\" &\n", shell_text({program}), shell_text(campaign), shell_text(options));
+    text += fmt::format("{} run {} {} --only \"$step\" &\n", shell_text({program}), shell_text(campaign),
+                        shell_text(options));
     // The first wait ends when the warning comes; the run then still has to reach its checkpoint.
-    text += "pid=$!\ntrap 'kill -USR1 $pid' USR1 TERM\nwait $pid; code=$?\nwhile kill -0 $pid 2>/dev/null; do wait $pid; code=$?; done\n"
+    text += "pid=$!\ntrap 'kill -USR1 $pid' USR1 TERM\nwait $pid; code=$?\nwhile kill -0 $pid 2>/dev/null; do wait "
+            "$pid; code=$?; done\n"
             "# 75: stopped at a checkpoint, to be run again.\n"
             "if [ $code -eq 75 ]; then scontrol requeue \"$self\"; fi\nexit $code\n";
     return text;
@@ -90,7 +99,8 @@ std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directo
 
 } // namespace
 
-std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory const& where, Launcher const& launcher, std::string const& program) {
+std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory const& where, Launcher const& launcher,
+                                 std::string const& program) {
     CampaignPlan plan = given;
     plan.path = fs::absolute(given.path).lexically_normal().string();
     CampaignDirectory const directory{fs::absolute(where.path()).lexically_normal().string()};
@@ -104,7 +114,8 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory co
             BatchJob job;
             job.group = step.group;
             for (std::string const& group : step.after)
-                if (job_of_group.contains(group)) (step.kind == StepKind::choose ? job.after_any : job.after).push_back(group);
+                if (job_of_group.contains(group))
+                    (step.kind == StepKind::choose ? job.after_any : job.after).push_back(group);
             jobs.push_back(std::move(job));
         }
         if (step.kind == StepKind::evolve) jobs[entry->second].tasks.push_back(step.run);
@@ -120,8 +131,8 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory co
     return jobs;
 }
 
-std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
-                                         std::string const& program, bool only_write) {
+std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                         Launcher const& launcher, std::string const& program, bool only_write) {
     std::string const record = directory.file("slurm/jobs.txt");
     if (!only_write && fs::exists(record)) {
         std::ifstream file{record};
@@ -132,7 +143,8 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
         std::set<std::string> const waiting{std::istream_iterator<std::string>{queued}, {}};
         for (std::string const& id : ids)
             if (waiting.contains(id))
-                throw Error(fmt::format("nothing was submitted for {}", directory.path()), fmt::format("job {} of the last time is still queued", id),
+                throw Error(fmt::format("nothing was submitted for {}", directory.path()),
+                            fmt::format("job {} of the last time is still queued", id),
                             "Wait for it, or cancel the jobs in slurm/jobs.txt with scancel.");
     }
     std::vector<BatchJob> const jobs = batch_jobs(plan, directory, launcher, program);
@@ -146,20 +158,25 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
         std::vector<std::string> conditions;
         auto const ids = [&](std::vector<std::string> const& groups) {
             std::vector<std::string> found;
-            for (std::string const& group : groups) if (id_of_group.contains(group)) found.push_back(id_of_group.at(group));
+            for (std::string const& group : groups)
+                if (id_of_group.contains(group)) found.push_back(id_of_group.at(group));
             return found;
         };
         if (!job.after.empty()) conditions.push_back(fmt::format("afterok:{}", fmt::join(ids(job.after), ":")));
-        if (!job.after_any.empty()) conditions.push_back(fmt::format("afterany:{}", fmt::join(ids(job.after_any), ":")));
+        if (!job.after_any.empty())
+            conditions.push_back(fmt::format("afterany:{}", fmt::join(ids(job.after_any), ":")));
         if (only_write) { lines.push_back(job.script); continue; }
         std::vector<std::string> command{"sbatch", "--parsable"};
         // A dependency that can no longer be met ends the job instead of leaving it in the queue for ever.
-        if (!conditions.empty()) command.insert(command.end(), {fmt::format("--dependency={}", fmt::join(conditions, ",")), "--kill-on-invalid-dep=yes"});
+        if (!conditions.empty())
+            command.insert(command.end(),
+                           {fmt::format("--dependency={}", fmt::join(conditions, ",")), "--kill-on-invalid-dep=yes"});
         command.push_back(job.script);
         std::string id = output_of(command);
         id = id.substr(0, id.find(';'));   // "id;cluster" where there are several clusters
         id_of_group[job.group] = id;
-        lines.push_back(fmt::format("{} {}{}", id, job.group, job.tasks.empty() ? "" : fmt::format(" ({} tasks)", job.tasks.size())));
+        lines.push_back(fmt::format("{} {}{}", id, job.group,
+                                    job.tasks.empty() ? "" : fmt::format(" ({} tasks)", job.tasks.size())));
         recorded += fmt::format("{} {}\n", id, job.group);
         write_file_atomically(record, std::string_view{recorded});
     }

@@ -43,8 +43,8 @@ std::vector<std::string> other_settings(CampaignPlan const& plan, Treatment cons
     return differing_settings(planned, made);
 }
 
-StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, Treatment const& treatment,
-                    std::optional<std::uint64_t> seed, bool taken) {
+StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
+                    Treatment const& treatment, std::optional<std::uint64_t> seed, bool taken) {
     std::string const run = directory.run(step.name);
     StepState state;
     RunProgress const progress = last_progress(run);
@@ -59,7 +59,8 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     };
     std::string const where = fmt::format("at generation {} of {}", state.generation, state.generations);
 
-    // What is done is done, whoever holds the lock: a child that was just forked seems to, until it becomes its program.
+    // What is done is done, whoever holds the lock: a child that was just forked seems to, until it becomes its
+    // program.
     std::optional<Manifest> manifest;
     if (fs::exists(in(run, run_file::manifest))) {
         try {
@@ -70,10 +71,13 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     }
     if (manifest && manifest->status == RunStatus::done) {
         if (seed && manifest->seed != *seed)
-            return say(StepStatus::failed, fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
+            return say(StepStatus::failed,
+                       fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
         if (auto const others = other_settings(plan, treatment, run); !others.empty())
-            return say(StepStatus::failed, fmt::format("it was made with another {}: move {} away", fmt::join(others, ", "), run));
-        if (!fs::exists(in(run, run_file::lineage))) return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
+            return say(StepStatus::failed,
+                       fmt::format("it was made with another {}: move {} away", fmt::join(others, ", "), run));
+        if (!fs::exists(in(run, run_file::lineage)))
+            return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
         return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
     }
     if (taken) return say(StepStatus::running, where);
@@ -112,39 +116,45 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
     auto const choice = recorded_choice(directory);
     if (step.kind == StepKind::archive) {
         ChosenRun const* const origin = choice ? choice->find(plan.knowledge_base(step.subject).base) : nullptr;
-        StepState state = run_state(plan, directory, step, plan.source, origin ? std::optional{origin->seed} : std::nullopt, taken);
+        StepState state =
+            run_state(plan, directory, step, plan.source, origin ? std::optional{origin->seed} : std::nullopt, taken);
         if (state.status != StepStatus::done || origin == nullptr) return state;
         std::string const run = directory.run(step.name), source = directory.run(run_step("source", origin->run));
         if (!fs::exists(in(run, run_file::all_individuals))) {
             state.status = StepStatus::failed;
             state.reason = fmt::format("there is no {}", in(run, run_file::all_individuals));
-        } else if (read_manifest(in(run, run_file::manifest)).signature != read_manifest(in(source, run_file::manifest)).signature) {
+        } else if (read_manifest(in(run, run_file::manifest)).signature !=
+                   read_manifest(in(source, run_file::manifest)).signature) {
             state.status = StepStatus::failed;
             state.reason = fmt::format("its signature is not that of {}: was Lore changed between them?", source);
         }
         return state;
     }
     StepState state;
-    bool const there = step.kind == StepKind::choose ? choice && choice->covers(plan) : fs::exists(directory.knowledge(step.subject));
+    bool const there =
+        step.kind == StepKind::choose ? choice && choice->covers(plan) : fs::exists(directory.knowledge(step.subject));
     if (there) {
         state.status = StepStatus::done;
         if (step.kind == StepKind::choose) {
             std::vector<std::string> words;
-            for (ChosenRun const& chosen : choice->chosen) words.push_back(fmt::format("{} from run {} ({} balls)", chosen.knowledge, chosen.run, chosen.balls));
+            for (ChosenRun const& chosen : choice->chosen)
+                words.push_back(fmt::format("{} from run {} ({} balls)", chosen.knowledge, chosen.run, chosen.balls));
             state.reason = fmt::format("{}", fmt::join(words, ", "));
         }
     } else if (taken) {
         state.status = StepStatus::running;
     } else if (auto const failure = read_failure(directory, step)) {
         state.status = StepStatus::failed;
-        state.reason = fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts, failure->log_tail.empty() ? "" : ": ",
+        state.reason = fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts,
+                                   failure->log_tail.empty() ? "" : ": ",
                                    failure->log_tail.empty() ? "" : failure->log_tail.back());
     }
     return state;
 }
 
 void write_failure(CampaignDirectory const& directory, Step const& step, FailureRecord const& failure) {
-    nlohmann::ordered_json const document{{"attempts", failure.attempts}, {"how", failure.how}, {"log_tail", failure.log_tail}};
+    nlohmann::ordered_json const document{
+        {"attempts", failure.attempts}, {"how", failure.how}, {"log_tail", failure.log_tail}};
     // Logs may hold any bytes; what is no UTF-8 is replaced rather than refused.
     std::string const text = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     write_file_atomically(directory.record(step.name), std::string_view{text});
@@ -171,7 +181,9 @@ std::optional<StepLock> StepLock::take(std::string const& path) {
     std::error_code failed;
     fs::create_directories(fs::path{path}.parent_path(), failed);
     int const descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) throw Error(fmt::format("cannot write {}", path), std::strerror(errno), "Choose a directory that can be written.");
+    if (descriptor < 0)
+        throw Error(fmt::format("cannot write {}", path), std::strerror(errno),
+                    "Choose a directory that can be written.");
     struct flock whole{};
     whole.l_type = F_WRLCK;
     whole.l_whence = SEEK_SET;
@@ -179,7 +191,8 @@ std::optional<StepLock> StepLock::take(std::string const& path) {
     int const reason = errno;
     ::close(descriptor);
     if (reason == EAGAIN || reason == EACCES) return std::nullopt;
-    throw Error(fmt::format("cannot lock {}", path), std::strerror(reason), "Choose a directory on a file system with locks.");
+    throw Error(fmt::format("cannot lock {}", path), std::strerror(reason),
+                "Choose a directory on a file system with locks.");
 }
 
 bool StepLock::is_taken(std::string const& path) {

@@ -32,7 +32,8 @@ std::vector<std::string> evolve_command(CampaignPlan const& plan, Launcher const
     std::vector<std::string> command;
     if (launcher.ranks > 1) {
         std::istringstream words{launcher.launch};
-        for (std::string word; words >> word;) command.push_back(word == "{ranks}" ? std::to_string(launcher.ranks) : word);
+        for (std::string word; words >> word;)
+            command.push_back(word == "{ranks}" ? std::to_string(launcher.ranks) : word);
     }
     command.insert(command.end(), {program(launcher, "lore-evolve"), plan.config_path(treatment), "--seed",
                                    std::to_string(seed), "--out", out, "--resume"});
@@ -51,7 +52,9 @@ std::vector<std::string> build_command(CampaignDirectory const& directory, Launc
     switch (knowledge.kind) {
         case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
         case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
-        case KnowledgeKind::random: add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)}); break;
+        case KnowledgeKind::random:
+            add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)});
+            break;
         case KnowledgeKind::reduced:
             add({"reduce", directory.knowledge(knowledge.base)});
             if (!knowledge.consensus.empty()) add({"--consensus"});
@@ -69,15 +72,25 @@ std::string run_step(std::string_view treatment, int run) {
     return run == 0 ? fmt::format("{}/?", treatment) : fmt::format("{}/{:03}", treatment, run);
 }
 
-std::uint64_t seed_of(Treatment const& treatment, int run) { return treatment.first_seed + static_cast<std::uint64_t>(run) - 1; }
+std::uint64_t seed_of(Treatment const& treatment, int run) {
+    return treatment.first_seed + static_cast<std::uint64_t>(run) - 1;
+}
 
-std::string CampaignDirectory::file(std::string_view name) const { return (std::filesystem::path{path_} / name).string(); }
+std::string CampaignDirectory::file(std::string_view name) const {
+    return (std::filesystem::path{path_} / name).string();
+}
 std::string CampaignDirectory::run(std::string_view step) const { return file(fmt::format("runs/{}", step)); }
-std::string CampaignDirectory::knowledge(std::string_view name) const { return file(fmt::format("knowledge/{}.lorekb", name)); }
+std::string CampaignDirectory::knowledge(std::string_view name) const {
+    return file(fmt::format("knowledge/{}.lorekb", name));
+}
 std::string CampaignDirectory::choice() const { return file("knowledge/choice.json"); }
 std::string CampaignDirectory::log(std::string_view step) const { return file(fmt::format("logs/{}.log", flat(step))); }
-std::string CampaignDirectory::lock(std::string_view step) const { return file(fmt::format("steps/{}.lock", flat(step))); }
-std::string CampaignDirectory::record(std::string_view step) const { return file(fmt::format("steps/{}.json", flat(step))); }
+std::string CampaignDirectory::lock(std::string_view step) const {
+    return file(fmt::format("steps/{}.lock", flat(step)));
+}
+std::string CampaignDirectory::record(std::string_view step) const {
+    return file(fmt::format("steps/{}.json", flat(step)));
+}
 
 std::vector<Step> steps_of(CampaignPlan const& plan) {
     std::vector<Step> steps;
@@ -85,7 +98,8 @@ std::vector<Step> steps_of(CampaignPlan const& plan) {
         std::vector<std::string> after;
         if (!treatment.knowledge.empty()) after.push_back(knowledge_step(treatment.knowledge));
         for (int run = 1; run <= treatment.runs; ++run)
-            steps.push_back({run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, after});
+            steps.push_back(
+                {run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, after});
     };
     add_runs(plan.source);
     if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}});
@@ -128,13 +142,15 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
     return found;
 }
 
-std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
-                                    Step const& step, Choice const* choice) {
+std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                    Launcher const& launcher, Step const& step, Choice const* choice) {
     switch (step.kind) {
         case StepKind::evolve: {
             Treatment const& treatment = plan.treatment(step.subject);
-            auto command = evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
-            if (!treatment.knowledge.empty()) command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
+            auto command =
+                evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
+            if (!treatment.knowledge.empty())
+                command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
             return command;
         }
         case StepKind::archive: {
@@ -155,8 +171,9 @@ std::string shell_text(std::vector<std::string> const& command) {
     std::string text;
     for (std::string const& word : command) {
         if (!text.empty()) text += ' ';
-        bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                                   "0123456789_-./=:,+@%") == std::string::npos;
+        bool const plain =
+            !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                    "0123456789_-./=:,+@%") == std::string::npos;
         if (plain) { text += word; continue; }
         text += '\'';
         for (char const c : word) c == '\'' ? text += "'\\''" : text += c;

@@ -28,8 +28,8 @@ constexpr int least_rows_to_share = 32;    ///< below, sending costs more than m
 } // namespace
 
 EvaluationFailure::EvaluationFailure(int index, int rank, Genome genome, std::string reason)
-    : Error(fmt::format("an evaluation failed on rank {}", rank), reason, "Repeat it with lore-replay."), index_(index), rank_(rank),
-      genome_(std::move(genome)), reason_(std::move(reason)) {}
+    : Error(fmt::format("an evaluation failed on rank {}", rank), reason, "Repeat it with lore-replay."), index_(index),
+      rank_(rank), genome_(std::move(genome)), reason_(std::move(reason)) {}
 
 struct Farm::State {
     Communicator communicator;
@@ -54,8 +54,8 @@ struct Farm::State {
 class Farm::OwnFeed : public EvaluationFeed {
 public:
     OwnFeed(State& state, std::span<Genome const* const> genomes, Arrival const& arrival)
-        : results(genomes.size()), state_(state), genomes_(genomes), arrival_(arrival), order_(genomes.size()), ranks_(state.communicator.size()),
-          lanes_(lane_count()), held_(static_cast<std::size_t>(ranks_), 0) {
+        : results(genomes.size()), state_(state), genomes_(genomes), arrival_(arrival), order_(genomes.size()),
+          ranks_(state.communicator.size()), lanes_(lane_count()), held_(static_cast<std::size_t>(ranks_), 0) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
             return larger(*genomes_[static_cast<std::size_t>(a)], *genomes_[static_cast<std::size_t>(b)]);
@@ -114,7 +114,8 @@ private:
             if (held > 0 && held + (waiting + 1) / 2 > full) continue;
             while (held < full && left() > 0) {
                 std::vector<Genome const*> batch;
-                for (int count = std::min({full - held, left(), most_in_a_message}); count > 0; --count) batch.push_back(genome(next_ + static_cast<int>(batch.size())));
+                for (int count = std::min({full - held, left(), most_in_a_message}); count > 0; --count)
+                    batch.push_back(genome(next_ + static_cast<int>(batch.size())));
                 state_.post.send(worker, MessageKind::evaluate, next_, pack_genomes(batch));
                 held += static_cast<int>(batch.size());
                 next_ += static_cast<int>(batch.size());
@@ -125,8 +126,9 @@ private:
     void take(Message const& message) {
         if (message.kind == MessageKind::failure) {
             if (!failure)
-                failure.emplace(index(message.unit), message.sender, *genome(message.unit),
-                                std::string{reinterpret_cast<char const*>(message.payload.data()), message.payload.size()});
+                failure.emplace(
+                    index(message.unit), message.sender, *genome(message.unit),
+                    std::string{reinterpret_cast<char const*>(message.payload.data()), message.payload.size()});
             return;
         }
         for (Evaluation& evaluation : unpack_evaluations(message.payload)) deliver(message.unit, std::move(evaluation));
@@ -171,7 +173,9 @@ std::vector<Evaluation> Farm::evaluate_everywhere(std::span<Genome const* const>
     };
     auto const culprit = evaluate_guarded(state.evaluate, feed);
     book(state.times.evaluation);
-    if (culprit) throw EvaluationFailure(feed.index(culprit->ticket), state.communicator.rank(), culprit->genome, culprit->reason);
+    if (culprit)
+        throw EvaluationFailure(feed.index(culprit->ticket), state.communicator.rank(), culprit->genome,
+                                culprit->reason);
     feed.wait_for_others();
     book(state.times.waiting);
     if (feed.failure) throw *feed.failure;
@@ -180,7 +184,8 @@ std::vector<Evaluation> Farm::evaluate_everywhere(std::span<Genome const* const>
 
 void Farm::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix) {
     State& state = *state_;
-    if (state.communicator.size() > 1 && kind == DistanceKind::trajectory && static_cast<int>(pool.size()) - known >= least_rows_to_share) {
+    if (state.communicator.size() > 1 && kind == DistanceKind::trajectory &&
+        static_cast<int>(pool.size()) - known >= least_rows_to_share) {
         try {
             measure_together(state.post, state.communicator.size(), pool, known, matrix, state.times);
         } catch (...) {
@@ -200,7 +205,8 @@ std::vector<RankTimes> Farm::stop() {
     State& state = *state_;
     std::vector<RankTimes> times{state.times};
     if (!std::exchange(state.working, false)) return times;
-    for (int worker = 1; worker < state.communicator.size(); ++worker) state.post.send(worker, MessageKind::stop, 0, {});
+    for (int worker = 1; worker < state.communicator.size(); ++worker)
+        state.post.send(worker, MessageKind::stop, 0, {});
     times.resize(static_cast<std::size_t>(state.communicator.size()));
     MessageKind const kinds[]{MessageKind::times};
     for (int worker = 1; worker < state.communicator.size(); ++worker) {

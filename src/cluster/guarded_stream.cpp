@@ -49,7 +49,8 @@ public:
         if (!item) return item;
         TestHooks const& hooks = state_.hooks;
         if (hooks.longest_delay_ms > 0)
-            std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(state_.rng.uniform() * hooks.longest_delay_ms));
+            std::this_thread::sleep_for(
+                std::chrono::duration<double, std::milli>(state_.rng.uniform() * hooks.longest_delay_ms));
         if (state_.taken++ == hooks.failing) state_.victim = *item->genome;
         if (!state_.victim.edges.empty() && *item->genome == state_.victim && !hooks.damaged_reply) {
             if (hooks.out_of_memory) throw std::bad_alloc{};
@@ -119,7 +120,8 @@ std::string reason_of_current_exception() {
 StreamEvaluation with_test_hooks(StreamEvaluation evaluate, int rank) {
     TestHooks const hooks = hooks_from_environment(rank);
     if (hooks.longest_delay_ms <= 0 && hooks.failing < 0) return evaluate;
-    auto const state = std::make_shared<HookState>(HookState{hooks, Stream{static_cast<std::uint64_t>(rank), Purpose::test}, 0, {}});
+    auto const state =
+        std::make_shared<HookState>(HookState{hooks, Stream{static_cast<std::uint64_t>(rank), Purpose::test}, 0, {}});
     return [=](EvaluationFeed& feed) {
         HookedFeed hooked{feed, *state};
         evaluate(hooked);

@@ -43,7 +43,8 @@ void Post::send(int to, MessageKind kind, int unit, std::span<std::byte const> p
     message.bytes.resize(sizeof header + payload.size());
     std::memcpy(message.bytes.data(), &header, sizeof header);
     if (!payload.empty()) std::memcpy(message.bytes.data() + sizeof header, payload.data(), payload.size());
-    MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, static_cast<int>(kind), comm_, &message.request);
+    MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, static_cast<int>(kind), comm_,
+              &message.request);
 }
 
 std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
@@ -61,8 +62,10 @@ std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
         MPI_Mrecv(bytes.data(), length, MPI_BYTE, &matched, &status);
         MessageHeader header{};
         if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
-        if (header.mark != message_mark || header.kind != static_cast<std::int32_t>(kind) || header.length != bytes.size() - sizeof header)
-            throw Error("a message between ranks is damaged", "its header does not fit", "Check that all ranks run the same build.");
+        if (header.mark != message_mark || header.kind != static_cast<std::int32_t>(kind) ||
+            header.length != bytes.size() - sizeof header)
+            throw Error("a message between ranks is damaged", "its header does not fit",
+                        "Check that all ranks run the same build.");
         bytes.erase(bytes.begin(), bytes.begin() + sizeof header);
         return Message{kind, status.MPI_SOURCE, static_cast<int>(header.unit), std::move(bytes)};
     }

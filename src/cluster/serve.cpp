@@ -15,7 +15,9 @@ namespace {
 
 constexpr int pulses_a_look = 8;
 
-std::span<std::byte const> bytes_of(std::string const& text) { return std::as_bytes(std::span{text.data(), text.size()}); }
+std::span<std::byte const> bytes_of(std::string const& text) {
+    return std::as_bytes(std::span{text.data(), text.size()});
+}
 
 /// Feeds this rank's lanes with what rank 0 sends, also while they run, and sends back what comes out.
 class PostedFeed : public EvaluationFeed {
@@ -33,7 +35,9 @@ public:
         waiting_.pop_front();
         return Item{present_.ticket, &present_.genome};
     }
-    void deliver(int ticket, Evaluation evaluation) override { post_.send(0, MessageKind::evaluated, ticket, pack_evaluations({&evaluation, 1})); }
+    void deliver(int ticket, Evaluation evaluation) override {
+        post_.send(0, MessageKind::evaluated, ticket, pack_evaluations({&evaluation, 1}));
+    }
     void pulse() override {
         if (++pulses_ % pulses_a_look == 0) look();
     }
@@ -70,7 +74,8 @@ void serve(Communicator const& communicator, StreamEvaluation const& evaluation)
         if (message.kind == MessageKind::evaluate) {
             PostedFeed feed{post};
             feed.take(message);
-            if (auto const culprit = evaluate_guarded(evaluate, feed)) post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
+            if (auto const culprit = evaluate_guarded(evaluate, feed))
+                post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
             times.evaluation += watch.lap();
         } else {
             try {

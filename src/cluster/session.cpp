@@ -20,7 +20,8 @@ namespace {
 /// Set by mpirun, mpiexec and srun --mpi=... for the processes that they start.
 bool started_by_a_launcher() {
     constexpr char const* marks[]{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "MPI_LOCALNRANKS"};
-    return std::any_of(std::begin(marks), std::end(marks), [](char const* mark) { return std::getenv(mark) != nullptr; });
+    return std::any_of(std::begin(marks), std::end(marks),
+                       [](char const* mark) { return std::getenv(mark) != nullptr; });
 }
 
 int number_in_environment(char const* name) {
@@ -33,7 +34,8 @@ void refuse_accidental_copies() {
     int const step = number_in_environment("SLURM_STEP_NUM_TASKS");
     int const tasks = step > 0 ? step : number_in_environment("SLURM_NTASKS");
     if (tasks > 1)
-        throw UsageError("this process is alone", fmt::format("Slurm gave {} tasks, but they do not find each other", tasks),
+        throw UsageError("this process is alone",
+                         fmt::format("Slurm gave {} tasks, but they do not find each other", tasks),
                          "Start it with 'mpirun', or with 'srun --mpi=pmix'.");
 }
 

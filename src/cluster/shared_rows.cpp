@@ -29,7 +29,8 @@ std::vector<int> equal_areas(int first, int last, int parts) {
 
 } // namespace
 
-void measure_together(Post& post, int ranks, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix, RankTimes& times) {
+void measure_together(Post& post, int ranks, std::span<Descriptors const* const> pool, int known,
+                      DistanceMatrix& matrix, RankTimes& times) {
     std::vector<int> const bounds = equal_areas(known, static_cast<int>(pool.size()), ranges_a_rank * ranks);
     int const ranges = static_cast<int>(bounds.size()) - 1;
     auto const first = [&](int range) { return bounds[static_cast<std::size_t>(range)]; };
@@ -52,7 +53,8 @@ void measure_together(Post& post, int ranks, std::span<Descriptors const* const>
     auto const take = [&](Message const& message) {
         if (message.kind == MessageKind::failure)
             throw Error(fmt::format("measuring distances failed on rank {}", message.sender),
-                        std::string{reinterpret_cast<char const*>(message.payload.data()), message.payload.size()}, "Resume the run.");
+                        std::string{reinterpret_cast<char const*>(message.payload.data()), message.payload.size()},
+                        "Resume the run.");
         unpack_distances(message.payload, first(message.unit), last(message.unit), matrix);
         --held[static_cast<std::size_t>(message.sender)];
         ++done;

@@ -63,7 +63,8 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
             for (int k = 0; k < groups_[g].count; ++k) {
                 auto const target = static_cast<std::size_t>(groups_[g].first_target + k);
                 if (static_cast<int>(target) >= network->target_count()) continue;
-                biases_[target * static_cast<std::size_t>(width) + static_cast<std::size_t>(lane)] = network->bias[target];
+                biases_[target * static_cast<std::size_t>(width) + static_cast<std::size_t>(lane)] =
+                    network->bias[target];
                 for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i) {
                     int const place = column + entry_of[g][network->source[i]] + k * vector_width;
                     weights_[static_cast<std::size_t>(place)] = network->weight[i];

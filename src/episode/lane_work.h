@@ -59,8 +59,8 @@ struct NeuronGroup {
 };
 
 /// The lanes' networks laid over each other. An entry is a source that feeds, in any lane, a target of the group; its
-/// weights are [target of group][lane of vector], 0 where a lane has no such edge. That changes no sum: sources are never
-/// negative, so the product is +0, and adding +0 to a sum that started from +0 gives that sum.
+/// weights are [target of group][lane of vector], 0 where a lane has no such edge. That changes no sum: sources are
+/// never negative, so the product is +0, and adding +0 to a sum that started from +0 gives that sum.
 struct LaneNetworks {
     NeuronGroup const* groups;
     std::int32_t group_count;

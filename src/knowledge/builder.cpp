@@ -7,7 +7,8 @@
 
 namespace lore {
 
-KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<FeatureIndex> index) : config_(config), index_(std::move(index)) {
+KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<FeatureIndex> index)
+    : config_(config), index_(std::move(index)) {
     assert(index_->size() == 0);
     searches_.push_back(index_->search());
 }
@@ -27,8 +28,8 @@ void KnowledgeBuilder::add_individual(std::span<Window const> windows, double ba
     }
 }
 
-/// The long part, finding each window's nearest feature among those known before, changes nothing and can be shared. What
-/// the individuals themselves add goes to a small index first, which every later window is held against, in order.
+/// The long part, finding each window's nearest feature among those known before, changes nothing and can be shared.
+/// What the individuals themselves add goes to a small index first, which every later window is held against, in order.
 void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int threads) {
     std::vector<Window const*> windows;
     for (Exhibit const& exhibit : exhibits)
@@ -45,7 +46,8 @@ void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int th
         windows_ += exhibit.windows.size();
         for (Window const& window : exhibit.windows) {
             Match match = known[next++];
-            if (Match const among_fresh = fresh_search->match(window); among_fresh.squared_distance < match.squared_distance)
+            if (Match const among_fresh = fresh_search->match(window);
+                among_fresh.squared_distance < match.squared_distance)
                 match = {before + among_fresh.feature, among_fresh.squared_distance};
             if (match.found()) {
                 ++matched_;
@@ -66,7 +68,8 @@ std::vector<Match> KnowledgeBuilder::match_all(std::span<Window const* const> wi
     std::atomic<std::size_t> taken{0};
     auto const work = [&](FeatureSearch& search) {
         for (std::size_t first; (first = taken.fetch_add(share)) < windows.size();)
-            for (std::size_t i = first; i < std::min(first + share, windows.size()); ++i) matches[i] = search.match(*windows[i]);
+            for (std::size_t i = first; i < std::min(first + share, windows.size()); ++i)
+                matches[i] = search.match(*windows[i]);
     };
     while (searches_.size() < static_cast<std::size_t>(threads)) searches_.push_back(index_->search());
     std::vector<std::future<void>> helpers;
@@ -100,8 +103,10 @@ KnowledgeBase KnowledgeBuilder::finish(Provenance provenance) && {
     searches_.clear();
     FeatureWindows windows = index_->release();
     index_.reset();
-    return KnowledgeBase{config_, std::move(provenance),
-                         {std::move(windows.bits), std::move(windows.values), std::move(means), std::move(sums_), std::move(counts_)}};
+    return KnowledgeBase{
+        config_,
+        std::move(provenance),
+        {std::move(windows.bits), std::move(windows.values), std::move(means), std::move(sums_), std::move(counts_)}};
 }
 
 } // namespace lore

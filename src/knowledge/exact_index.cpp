@@ -53,7 +53,10 @@ exact::Shape shape_of(KnowledgeConfig const& config) {
     shape.first_half = (config.window_length + 1) / 2;
     int const halves[2]{shape.first_half, config.window_length - shape.first_half};
     for (int half = 0; half < 2; ++half)
-        shape.scales[half] = halves[half] == 0 ? 0.0f : static_cast<float>(exact::summary_scale / std::sqrt(static_cast<double>(shape.first_half) * halves[half]));
+        shape.scales[half] = halves[half] == 0
+                                 ? 0.0f
+                                 : static_cast<float>(exact::summary_scale /
+                                                      std::sqrt(static_cast<double>(shape.first_half) * halves[half]));
     shape.most_differing = most_differing_bits(config);
     shape.tables = bits / (shape.most_differing + 1) >= fewest_block_bits ? shape.most_differing + 1 : 1;
     shape.squared_threshold = config.squared_threshold();
@@ -76,7 +79,8 @@ std::vector<std::int32_t> limits_of(exact::Shape const& shape) {
     double const slack = 2 * rounding * std::sqrt(static_cast<double>(exact::summary_size));
     std::vector<std::int32_t> limits;
     for (int differing = 0; differing <= shape.most_differing; ++differing) {
-        double const left = std::max(0.0, static_cast<double>(shape.squared_threshold) * (1 + relative_error) - differing);
+        double const left =
+            std::max(0.0, static_cast<double>(shape.squared_threshold) * (1 + relative_error) - differing);
         double const radius = exact::summary_scale * std::sqrt(left / shape.first_half) + slack;
         limits.push_back(static_cast<std::int32_t>(std::min(radius * radius + 1, 2147483647.0)));
     }
@@ -96,7 +100,8 @@ exact::Kernel kernel_of(Isa isa) {
 class ExactIndex : public FeatureIndex {
 public:
     explicit ExactIndex(KnowledgeConfig const& config)
-        : shape_(shape_of(config)), entry_size_(static_cast<std::size_t>(exact::entry_size(shape_.words))), masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())) {
+        : shape_(shape_of(config)), entry_size_(static_cast<std::size_t>(exact::entry_size(shape_.words))),
+          masks_(masks_of(shape_)), limits_(limits_of(shape_)), kernel_(kernel_of(active_isa())) {
         buckets_.assign(static_cast<std::size_t>(shape_.tables) << slot_bits_, {0, 0});
     }
 
@@ -116,13 +121,15 @@ public:
     std::span<double const> worth() const { return worth_; }
     bool final() const { return final_; }
     View view() const {
-        return {shape_, masks_.data(), buckets_.data(), slot_bits_, entries_.data(), features_.values.data(), limits_.data()};
+        return {shape_,          masks_.data(),           buckets_.data(), slot_bits_,
+                entries_.data(), features_.values.data(), limits_.data()};
     }
 
 private:
     /// The bucket of one table that a pattern belongs to.
     exact::Bucket& bucket_of(int table, std::uint64_t const* words) {
-        std::uint64_t const slot = exact::hash_slot(words, masks_.data() + table * shape_.words, shape_.words, slot_bits_);
+        std::uint64_t const slot =
+            exact::hash_slot(words, masks_.data() + table * shape_.words, shape_.words, slot_bits_);
         return buckets_[(static_cast<std::size_t>(table) << slot_bits_) + slot];
     }
     void insert(int table, std::uint64_t const* entry);
@@ -162,7 +169,8 @@ void ExactIndex::insert(int table, std::uint64_t const* entry) {
         std::size_t const room = std::max<std::size_t>(1, std::size_t{bucket.count} * 2);
         std::size_t const start = entries_.size() / entry_size_;
         entries_.resize(entries_.size() + room * entry_size_);
-        std::copy_n(entries_.data() + bucket.start * entry_size_, bucket.count * entry_size_, entries_.data() + start * entry_size_);
+        std::copy_n(entries_.data() + bucket.start * entry_size_, bucket.count * entry_size_,
+                    entries_.data() + start * entry_size_);
         bucket.start = static_cast<std::uint32_t>(start);
     }
     std::copy_n(entry, entry_size_, entries_.data() + (bucket.start + bucket.count) * entry_size_);
@@ -199,7 +207,8 @@ public:
         // They are in falling order of worth. Is there any above `least` that may be near enough to matter?
         auto const worth = index_.worth();
         std::size_t above = 0;
-        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].digest.feature)] > least) ++above;
+        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].digest.feature)] > least)
+            ++above;
         if (above == 0) return {};
         return match(view, window, candidates, above);
     }
@@ -212,15 +221,19 @@ private:
         if (PatternCache::List const* const known = cache_.find(words_.data())) return cache_.candidates(*known);
         std::span<Candidate> found = look_up(view);
         std::sort(found.begin(), found.end(), [&](Candidate const& a, Candidate const& b) {
-            double const a_worth = index_.worth()[static_cast<std::size_t>(a.digest.feature)], b_worth = index_.worth()[static_cast<std::size_t>(b.digest.feature)];
+            double const a_worth = index_.worth()[static_cast<std::size_t>(a.digest.feature)],
+                         b_worth = index_.worth()[static_cast<std::size_t>(b.digest.feature)];
             return a_worth != b_worth ? a_worth > b_worth : a.digest.feature < b.digest.feature;
         });
-        auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) { return a.digest.feature == b.digest.feature; });
+        auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) {
+            return a.digest.feature == b.digest.feature;
+        });
         return cache_.add(words_.data(), found.first(static_cast<std::size_t>(end - found.begin())));
     }
 
     std::span<Candidate> look_up(View const& view) {
-        std::size_t const most = static_cast<std::size_t>(index_.size()) * static_cast<std::size_t>(index_.shape().tables) + 1;
+        std::size_t const most =
+            static_cast<std::size_t>(index_.size()) * static_cast<std::size_t>(index_.shape().tables) + 1;
         if (found_.size() < most) found_.resize(most * 2);
         return {found_.data(), static_cast<std::size_t>(index_.kernel().within(view, words_.data(), found_.data()))};
     }
@@ -251,6 +264,8 @@ std::unique_ptr<FeatureSearch> ExactIndex::search() const { return std::make_uni
 
 } // namespace
 
-std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const& config) { return std::make_unique<ExactIndex>(config); }
+std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const& config) {
+    return std::make_unique<ExactIndex>(config);
+}
 
 } // namespace lore

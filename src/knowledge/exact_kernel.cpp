@@ -136,7 +136,8 @@ LORE_INLINE float continuous_distance(float const* a, float const* b, int count)
     int i = 0;
     for (; i + partial_sums <= count; i += partial_sums)
         for (int v = 0; v < vectors; ++v) {
-            Vector const difference = lanes::load<Vector>(a + i + v * LORE_LANES) - lanes::load<Vector>(b + i + v * LORE_LANES);
+            Vector const difference =
+                lanes::load<Vector>(a + i + v * LORE_LANES) - lanes::load<Vector>(b + i + v * LORE_LANES);
             sums[v] += difference * difference;
         }
     float partial[partial_sums];
@@ -157,9 +158,12 @@ Nearest nearest(View const& view, Query const& query, Candidate const* candidate
     int const value_count = view.shape.window_length * continuous_count;
     for (int i = 0; i < count; ++i) {
         std::int32_t const feature = candidates[i].digest.feature;
-        float const* const values = view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count);
-        float const distance = continuous_distance(query.values, values, value_count) + static_cast<float>(candidates[i].differing);
-        bool const nearer = distance < best.squared_distance || (distance == best.squared_distance && feature < best.feature);
+        float const* const values =
+            view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count);
+        float const distance =
+            continuous_distance(query.values, values, value_count) + static_cast<float>(candidates[i].differing);
+        bool const nearer =
+            distance < best.squared_distance || (distance == best.squared_distance && feature < best.feature);
         if (nearer) best = {feature, distance};
     }
     return best;

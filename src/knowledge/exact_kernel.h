@@ -39,7 +39,9 @@ struct Bucket {
     std::uint32_t count;
 };
 /// In 64-bit words.
-LORE_INLINE constexpr int entry_size(int pattern_words) { return pattern_words + static_cast<int>(sizeof(Digest) / sizeof(std::uint64_t)); }
+LORE_INLINE constexpr int entry_size(int pattern_words) {
+    return pattern_words + static_cast<int>(sizeof(Digest) / sizeof(std::uint64_t));
+}
 
 /// A set of features as the kernel reads it.
 struct View {
@@ -73,8 +75,8 @@ struct Kernel {
     /// The pattern of a window: its binary channels, step after step.
     void (*pack)(Shape const&, std::uint16_t const* bits, std::uint64_t* words);
     void (*summarize)(Shape const&, float const* values, Digest&);
-    /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how many.
-    /// `out` has room for all features of all tables and one more.
+    /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how
+    /// many. `out` has room for all features of all tables and one more.
     int (*within)(View const&, std::uint64_t const* words, Candidate* out);
     /// Writes those that the summaries do not rule out, and returns how many. `out` has room for all and one more, and
     /// may be `in`.

@@ -19,15 +19,18 @@ constexpr std::size_t rows_per_chunk = 1024;
 /// A window as FLANN sees it: all channels of all steps in a row of floats.
 void flatten(Window const& window, float* row) {
     for (std::size_t step = 0; step < window.bits.size(); ++step) {
-        for (int channel = 0; channel < binary_count; ++channel) *row++ = static_cast<float>(window.bits[step] >> channel & 1);
-        for (int channel = 0; channel < continuous_count; ++channel) *row++ = window.values[step * continuous_count + static_cast<std::size_t>(channel)];
+        for (int channel = 0; channel < binary_count; ++channel)
+            *row++ = static_cast<float>(window.bits[step] >> channel & 1);
+        for (int channel = 0; channel < continuous_count; ++channel)
+            *row++ = window.values[step * continuous_count + static_cast<std::size_t>(channel)];
     }
 }
 
 class FlannIndex : public FeatureIndex {
 public:
     FlannIndex(KnowledgeConfig const& config, int trees, int checks)
-        : config_(config), columns_(static_cast<std::size_t>(config.window_length) * channel_count), trees_(trees), search_(checks) {
+        : config_(config), columns_(static_cast<std::size_t>(config.window_length) * channel_count), trees_(trees),
+          search_(checks) {
         search_.cores = 1;
     }
 
@@ -57,7 +60,8 @@ public:
         flann::Matrix<float> const query{row.data(), 1, columns_};
         flann::Matrix<int> neighbours{&neighbour, 1, 1};
         flann::Matrix<float> distances{&flann_distance, 1, 1};
-        if (forest_->knnSearch(query, neighbours, distances, 1, search_) < 1 || neighbour < 0 || neighbour >= size_) return {};
+        if (forest_->knnSearch(query, neighbours, distances, 1, search_) < 1 || neighbour < 0 || neighbour >= size_)
+            return {};
         // FLANN sums in an order of its own; what counts as a match is decided by our distance.
         float const distance = squared_distance(window, features_.window(neighbour, config_.window_length));
         return distance < config_.squared_threshold() ? Match{neighbour, distance} : Match{};

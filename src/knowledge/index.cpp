@@ -73,7 +73,9 @@ IndexKind index_kind(std::string_view name) {
     throw UsageError(fmt::format("there is no index '{}'", name), "known are exact and flann", "Choose one of them.");
 }
 
-std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const& config) { return std::make_unique<ScanIndex>(config); }
+std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const& config) {
+    return std::make_unique<ScanIndex>(config);
+}
 
 std::unique_ptr<FeatureIndex> make_index(IndexKind kind, KnowledgeConfig const& config) {
     return kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config);

@@ -8,7 +8,8 @@ namespace {
 
 KnowledgeBase::Parts owned(KnowledgeConfig const& config, Provenance provenance, KnowledgeArrays arrays) {
     auto const kept = std::make_shared<KnowledgeArrays const>(std::move(arrays));
-    return {config, std::move(provenance), kept->bits, kept->windows, kept->values, kept->reward_sums, kept->counts, kept};
+    return {config,       std::move(provenance), kept->bits,   kept->windows,
+            kept->values, kept->reward_sums,     kept->counts, kept};
 }
 
 } // namespace
@@ -28,7 +29,8 @@ Window KnowledgeBase::window(int feature) const {
     assert(feature >= 0 && feature < size());
     auto const length = static_cast<std::size_t>(parts_.config.window_length);
     std::size_t const first = static_cast<std::size_t>(feature) * length;
-    return {parts_.bits.subspan(first, length), parts_.windows.subspan(first * continuous_count, length * continuous_count)};
+    return {parts_.bits.subspan(first, length),
+            parts_.windows.subspan(first * continuous_count, length * continuous_count)};
 }
 
 } // namespace lore

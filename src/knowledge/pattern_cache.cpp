@@ -30,7 +30,9 @@ void PatternCache::reset(int slot_bits) {
 std::size_t PatternCache::slot_of(std::uint64_t const* words) const {
     std::size_t const last = (std::size_t{1} << slot_bits_) - 1;
     std::size_t slot = hash_slot(words, nullptr, static_cast<int>(words_), slot_bits_);
-    while (used_[slot] && !std::equal(words, words + words_, keys_.begin() + static_cast<std::ptrdiff_t>(slot * words_))) slot = (slot + 1) & last;
+    while (used_[slot] &&
+           !std::equal(words, words + words_, keys_.begin() + static_cast<std::ptrdiff_t>(slot * words_)))
+        slot = (slot + 1) & last;
     return slot;
 }
 

@@ -24,7 +24,9 @@ public:
 
     /// Null if the pattern is not known. Valid until the next add.
     List const* find(std::uint64_t const* words) const;
-    std::span<Candidate const> candidates(List const& list) const { return {candidates_.data() + list.start, list.count}; }
+    std::span<Candidate const> candidates(List const& list) const {
+        return {candidates_.data() + list.start, list.count};
+    }
     /// Precondition: the pattern is not known. Returns the copy that is kept, valid until the next add.
     std::span<Candidate const> add(std::uint64_t const* words, std::span<Candidate const>);
     std::size_t size() const { return patterns_; }

@@ -16,7 +16,8 @@ std::string why_invalid(Genome const& genome) {
     int const hidden = genome.hidden_count();
     if (hidden < 0) return fmt::format("{} biases are fewer than the {} outputs", genome.biases.size(), effector_count);
     if (hidden > most_hidden) return fmt::format("{} hidden neurons are more than {}", hidden, most_hidden);
-    if (genome.edges.size() > most_edges) return fmt::format("{} edges are more than {}", genome.edges.size(), most_edges);
+    if (genome.edges.size() > most_edges)
+        return fmt::format("{} edges are more than {}", genome.edges.size(), most_edges);
     for (std::size_t i = 0; i < genome.biases.size(); ++i)
         if (!is_gene(genome.biases[i])) return fmt::format("bias {} is {}, not in [0, 1]", i, genome.biases[i]);
 
@@ -25,7 +26,8 @@ std::string why_invalid(Genome const& genome) {
     for (std::size_t i = 0; i < genome.edges.size(); ++i) {
         Edge const& edge = genome.edges[i];
         if (edge.source >= neurons || edge.target >= neurons)
-            return fmt::format("edge {} joins {} to {}, but there are {} neurons", i, edge.source, edge.target, neurons);
+            return fmt::format("edge {} joins {} to {}, but there are {} neurons", i, edge.source, edge.target,
+                               neurons);
         if (edge.source >= first_output && edge.source < first_hidden)
             return fmt::format("edge {} starts at output neuron {}", i, edge.source);
         if (edge.target < first_output) return fmt::format("edge {} ends at input neuron {}", i, edge.target);

@@ -13,7 +13,9 @@ namespace {
 /// Sources are numbered inputs first, then hidden neurons; targets outputs first, then hidden neurons.
 int source_count(Genome const& genome) { return sensor_count + genome.hidden_count(); }
 int target_count(Genome const& genome) { return effector_count + genome.hidden_count(); }
-NeuronIndex nth_source(int n) { return static_cast<NeuronIndex>(n < sensor_count ? n : n - sensor_count + first_hidden); }
+NeuronIndex nth_source(int n) {
+    return static_cast<NeuronIndex>(n < sensor_count ? n : n - sensor_count + first_hidden);
+}
 NeuronIndex nth_target(int n) { return static_cast<NeuronIndex>(first_output + n); }
 
 /// Which pairs of neurons an edge joins already.
@@ -44,7 +46,8 @@ float polynomial_mutation(float gene, int eta, double u) {
 
 void mutate_weights(Genome& genome, MutationConfig const& config, Stream& rng) {
     for (Edge& edge : genome.edges)
-        if (rng.chance(config.weight_probability)) edge.weight = polynomial_mutation(edge.weight, config.eta, rng.uniform());
+        if (rng.chance(config.weight_probability))
+            edge.weight = polynomial_mutation(edge.weight, config.eta, rng.uniform());
 }
 
 void rewire(Genome& genome, MutationConfig const& config, Stream& rng) {
@@ -60,7 +63,8 @@ void rewire(Genome& genome, MutationConfig const& config, Stream& rng) {
             for (int n = 0; n < target_count(genome); ++n)
                 if (!connections.has(edge.source, nth_target(n))) free.push_back(nth_target(n));
         }
-        if (!free.empty()) (redraw_source ? edge.source : edge.target) = free[rng.below(static_cast<std::uint32_t>(free.size()))];
+        if (!free.empty())
+            (redraw_source ? edge.source : edge.target) = free[rng.below(static_cast<std::uint32_t>(free.size()))];
         return;
     }
 }

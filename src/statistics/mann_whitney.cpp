@@ -14,9 +14,11 @@ namespace {
 
 void require_numbers(std::span<double const> sample, char const* which) {
     if (sample.empty())
-        throw Error("cannot compare two samples", std::string{"the "} + which + " is empty", "Give each at least one number.");
+        throw Error("cannot compare two samples", std::string{"the "} + which + " is empty",
+                    "Give each at least one number.");
     if (std::any_of(sample.begin(), sample.end(), [](double x) { return std::isnan(x); }))
-        throw Error("cannot compare two samples", std::string{"the "} + which + " holds a NaN", "Find out where it comes from.");
+        throw Error("cannot compare two samples", std::string{"the "} + which + " holds a NaN",
+                    "Find out where it comes from.");
 }
 
 /// What both forms of the test need: U of the first sample and how the values are tied.
@@ -54,7 +56,8 @@ Ranking rank(std::span<double const> first, std::span<double const> second) {
 double exact_tail(double u, int n, int m) {
     int const most = n * m;
     // ways[j][k]: chance of U = k for j of ours and the i of theirs counted so far.
-    std::vector<std::vector<double>> ways(static_cast<std::size_t>(n) + 1, std::vector<double>(static_cast<std::size_t>(most) + 1, 0.0));
+    std::vector<std::vector<double>> ways(static_cast<std::size_t>(n) + 1,
+                                          std::vector<double>(static_cast<std::size_t>(most) + 1, 0.0));
     for (auto& row : ways) row[0] = 1;
     for (int i = 1; i <= m; ++i) {
         for (int j = 1; j <= n; ++j) {
@@ -94,8 +97,9 @@ MannWhitney mann_whitney(std::span<double const> first, std::span<double const> 
     MannWhitney result;
     result.u = ranking.u;
     result.exact = ranking.tie_sum == 0 && std::max(first.size(), second.size()) <= exact_sample_limit;
-    double const tail = result.exact ? exact_tail(larger, static_cast<int>(first.size()), static_cast<int>(second.size()))
-                                     : normal_tail(larger, n, m, ranking.tie_sum);
+    double const tail = result.exact
+                            ? exact_tail(larger, static_cast<int>(first.size()), static_cast<int>(second.size()))
+                            : normal_tail(larger, n, m, ranking.tie_sum);
     result.p = std::min(1.0, 2 * tail);
     return result;
 }

@@ -28,7 +28,9 @@ double quantile_of_sorted(std::vector<double> const& values, double fraction) {
 
 } // namespace
 
-double quantile(std::span<double const> sample, double fraction) { return quantile_of_sorted(sorted(sample), fraction); }
+double quantile(std::span<double const> sample, double fraction) {
+    return quantile_of_sorted(sorted(sample), fraction);
+}
 
 FiveNumbers five_numbers(std::span<double const> sample) {
     std::vector<double> const values = sorted(sample);
@@ -37,8 +39,10 @@ FiveNumbers five_numbers(std::span<double const> sample) {
     box.median = quantile_of_sorted(values, 0.5);
     box.upper_quartile = quantile_of_sorted(values, 0.75);
     double const reach = 1.5 * (box.upper_quartile - box.lower_quartile);
-    box.low_whisker = *std::find_if(values.begin(), values.end(), [&](double x) { return x >= box.lower_quartile - reach; });
-    box.high_whisker = *std::find_if(values.rbegin(), values.rend(), [&](double x) { return x <= box.upper_quartile + reach; });
+    box.low_whisker =
+        *std::find_if(values.begin(), values.end(), [&](double x) { return x >= box.lower_quartile - reach; });
+    box.high_whisker =
+        *std::find_if(values.rbegin(), values.rend(), [&](double x) { return x <= box.upper_quartile + reach; });
     return box;
 }
 

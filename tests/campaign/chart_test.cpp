@@ -61,7 +61,8 @@ TEST(Boxplots, stack_brackets_so_that_none_overlap) {
     std::set<std::string> marks;
     for (std::size_t at = svg.find(">**</text>"); at != std::string::npos; at = svg.find(">**</text>", at + 1)) {
         std::size_t const start = svg.rfind("<text", at);
-        EXPECT_TRUE(marks.insert(svg.substr(start, svg.find(" font-size", start) - start)).second) << "two marks at one place";
+        EXPECT_TRUE(marks.insert(svg.substr(start, svg.find(" font-size", start) - start)).second)
+            << "two marks at one place";
     }
 }
 

@@ -43,7 +43,8 @@ TEST(Comparison, pairs_treatments_that_have_runs_in_the_order_of_the_report) {
 }
 
 TEST(Comparison, corrects_for_all_pairs) {
-    auto const comparisons = compare_treatments(three_treatments(), results_with({{"a", {1, 2, 3}}, {"b", {4, 5, 6}}, {"c", {7, 8, 9}}}));
+    auto const comparisons =
+        compare_treatments(three_treatments(), results_with({{"a", {1, 2, 3}}, {"b", {4, 5, 6}}, {"c", {7, 8, 9}}}));
     ASSERT_EQ(comparisons.size(), 3u);
     for (Comparison const& c : comparisons) EXPECT_NEAR(c.p_holm, 0.3, 1e-12);
 }

@@ -1,8 +1,8 @@
 // Stands in for lore-evolve in the campaign's tests: takes its arguments, writes its files, makes up the numbers.
 //
 // Environment: LORE_FAKE_MS  milliseconds a generation (default 0)
-//              LORE_FAKE_FAIL  "NAME:SEED:TIMES,..." the run of this treatment and seed fails so many times (NAME * any)
-//              LORE_FAKE_COUNT  directory in which every start leaves a file
+//              LORE_FAKE_FAIL  "NAME:SEED:TIMES,..." the run of this treatment and seed fails so many times (NAME *
+//              any) LORE_FAKE_COUNT  directory in which every start leaves a file
 
 #include <lore/core/error.h>
 #include <lore/core/random.h>

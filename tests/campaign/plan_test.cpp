@@ -69,7 +69,8 @@ TEST_F(Campaign, orders_steps_after_those_that_they_wait_for) {
     std::vector<Step> const steps = steps_of(plan());
     for (auto step = steps.begin(); step != steps.end(); ++step)
         for (std::string const& group : step->after)
-            EXPECT_TRUE(std::none_of(step, steps.end(), [&](Step const& later) { return later.group == group; })) << step->name;
+            EXPECT_TRUE(std::none_of(step, steps.end(), [&](Step const& later) { return later.group == group; }))
+                << step->name;
 }
 
 TEST_F(Campaign, writes_commands_that_a_shell_takes) {
@@ -77,14 +78,22 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     Choice choice;
     choice.chosen = {{"kb1", 6, 3, 3, 6}, {"kb2", 2, 1, 1, 2}};
     auto command = [&](std::string const& step) {
-        return shell_text(command_of(campaign, CampaignDirectory{"c"}, Launcher{}, steps_named(steps_of(campaign), {step}).front(), &choice));
+        return shell_text(command_of(campaign, CampaignDirectory{"c"}, Launcher{},
+                                     steps_named(steps_of(campaign), {step}).front(), &choice));
     };
     std::string const here = campaign.directory;
-    EXPECT_EQ(command("kb1/002"), "lore-evolve " + here + "/target.toml --seed 2 --out c/runs/kb1/002 --resume --set evolution.generations=20 --kb c/knowledge/kb1.lorekb");
-    EXPECT_EQ(command("archive/kb1_all"), "lore-evolve " + here + "/source.toml --seed 3 --out c/runs/archive/kb1_all --resume --set evolution.generations=20 --archive all");
+    EXPECT_EQ(command("kb1/002"), "lore-evolve " + here +
+                                      "/target.toml --seed 2 --out c/runs/kb1/002 --resume --set "
+                                      "evolution.generations=20 --kb c/knowledge/kb1.lorekb");
+    EXPECT_EQ(
+        command("archive/kb1_all"),
+        "lore-evolve " + here +
+            "/source.toml --seed 3 --out c/runs/archive/kb1_all --resume --set evolution.generations=20 --archive all");
     EXPECT_EQ(command("knowledge/kb1"), "lore-kb build c/runs/source/003 --out c/knowledge/kb1.lorekb");
-    EXPECT_EQ(command("knowledge/kb1_all"), "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
-    EXPECT_EQ(command("knowledge/kb1_top"), "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_all"),
+              "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_top"),
+              "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
     EXPECT_EQ(shell_text({"a b", "it's", ""}), "'a b' 'it'\\''s' ''");
 
     Launcher four;

@@ -10,7 +10,9 @@ using namespace lore;
 
 class Report : public test::CampaignTest {
 protected:
-    std::string made(std::string const& name, std::string const& where = "c") const { return read(scratch.file(where + "/" + name)); }
+    std::string made(std::string const& name, std::string const& where = "c") const {
+        return read(scratch.file(where + "/" + name));
+    }
     int rows(std::string const& name) const {
         std::string const text = made(name);
         return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;
@@ -25,7 +27,8 @@ TEST_F(Report, has_a_row_for_every_finished_run) {
     EXPECT_EQ(rows("curves.csv"), 4 * 21);
     EXPECT_EQ(rows("pvalues.csv"), 3);
     EXPECT_EQ(rows("kbs.csv"), 5);
-    for (char const* name : {"report.html", "figures/figure3.svg", "figures/figure3.png", "figures/figure4.svg", "figures/figure4.png", "summary.json"})
+    for (char const* name : {"report.html", "figures/figure3.svg", "figures/figure3.png", "figures/figure4.svg",
+                             "figures/figure4.png", "summary.json"})
         EXPECT_FALSE(made(name).empty()) << name;
 }
 
@@ -33,7 +36,8 @@ TEST_F(Report, is_self_contained_with_unique_ids) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::string const page = made("report.html");
-    for (char const* outside : {"src=\"", "@import", "url(", "href=\"http"}) EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    for (char const* outside : {"src=\"", "@import", "url(", "href=\"http"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     std::set<std::string> ids;
     for (std::size_t at = page.find(" id=\""); at != std::string::npos; at = page.find(" id=\"", at + 1))
         EXPECT_TRUE(ids.insert(page.substr(at + 5, page.find('"', at + 5) - at - 5)).second) << page.substr(at, 40);
@@ -58,7 +62,8 @@ TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone)
     for (char const* name : {"final.csv", "runs.csv", "curves.csv", "kbs.csv", "replay.csv", "values.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
-    for (char const* name : {"report.html", "pvalues.csv", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
+    for (char const* name :
+         {"report.html", "pvalues.csv", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
         EXPECT_EQ(made(name), made(name, "kept")) << name;
 }
 
@@ -69,7 +74,8 @@ TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {
     for (char const* name : {"final.csv", "curves.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
-    for (char const* name : {"pvalues.csv", "figures/figure3.svg", "figures/figure4.svg"}) EXPECT_EQ(made(name), made(name, "kept")) << name;
+    for (char const* name : {"pvalues.csv", "figures/figure3.svg", "figures/figure4.svg"})
+        EXPECT_EQ(made(name), made(name, "kept")) << name;
 }
 
 TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {

@@ -31,14 +31,16 @@ protected:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
     void wait_for(std::string const& file) const {
-        for (int i = 0; i < 400 && !std::filesystem::exists(file); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{25});
+        for (int i = 0; i < 400 && !std::filesystem::exists(file); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds{25});
     }
     /// Every run's progress and every knowledge base, by path.
     std::map<std::string, std::string> products(std::string const& where) const {
         std::map<std::string, std::string> files;
         for (auto const& entry : std::filesystem::recursive_directory_iterator(scratch.file(where))) {
             std::string const name = entry.path().filename().string();
-            if (name == "choice.json" || name == "lineage.lore") files[std::filesystem::relative(entry.path(), scratch.file(where)).string()] = read(entry.path());
+            if (name == "choice.json" || name == "lineage.lore")
+                files[std::filesystem::relative(entry.path(), scratch.file(where)).string()] = read(entry.path());
             if (name == "progress.csv") {
                 // Times differ from run to run: the last column is left out.
                 std::string text;
@@ -61,7 +63,8 @@ protected:
 TEST_F(Runner, works_through_a_campaign_and_starts_nothing_the_second_time) {
     count_starts();
     EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
-    for (Step const& step : steps_of(plan())) EXPECT_EQ(state(step.name).status, StepStatus::done) << step.name << ": " << state(step.name).reason;
+    for (Step const& step : steps_of(plan()))
+        EXPECT_EQ(state(step.name).status, StepStatus::done) << step.name << ": " << state(step.name).reason;
     EXPECT_EQ(starts(), 4 + 1 + 9);
     EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     EXPECT_EQ(starts(), 4 + 1 + 9);
@@ -103,7 +106,8 @@ TEST_F(Runner, says_what_cannot_be_done_when_its_knowledge_base_fails) {
     ::setenv("LORE_FAKE_FAIL", "archive:1:9,archive:2:9,archive:3:9,archive:4:9", 1);
     testing::internal::CaptureStderr();
     EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("all/001 cannot be done: it waits for knowledge/kb1_all"), std::string::npos);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("all/001 cannot be done: it waits for knowledge/kb1_all"),
+              std::string::npos);
     EXPECT_EQ(state("kb1/003").status, StepStatus::done);
     EXPECT_EQ(state("all/001").status, StepStatus::missing);
 }

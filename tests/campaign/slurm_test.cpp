@@ -10,7 +10,9 @@ using namespace lore;
 
 class Slurm : public test::CampaignTest {
 protected:
-    std::vector<BatchJob> jobs() const { return batch_jobs(plan(), directory(), options().launcher, "/opt/lore-campaign"); }
+    std::vector<BatchJob> jobs() const {
+        return batch_jobs(plan(), directory(), options().launcher, "/opt/lore-campaign");
+    }
     BatchJob job(std::string const& group) const {
         auto const all = jobs();
         auto const found = std::find_if(all.begin(), all.end(), [&](BatchJob const& j) { return j.group == group; });
@@ -30,7 +32,8 @@ TEST_F(Slurm, makes_arrays_of_runs_and_lets_them_wait) {
 
 TEST_F(Slurm, warns_requeues_and_limits) {
     std::string const text = job("none").text;
-    for (char const* line : {"#SBATCH --time=04:00:00\n", "#SBATCH --signal=B:USR1@120\n", "#SBATCH --requeue\n", "scontrol requeue", "--only \"$step\""})
+    for (char const* line : {"#SBATCH --time=04:00:00\n", "#SBATCH --signal=B:USR1@120\n", "#SBATCH --requeue\n",
+                             "scontrol requeue", "--only \"$step\""})
         EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 

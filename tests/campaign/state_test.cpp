@@ -9,7 +9,8 @@ using namespace lore;
 class State : public test::CampaignTest {};
 
 TEST_F(State, of_everything_is_missing_at_first) {
-    for (Step const& step : steps_of(plan())) EXPECT_EQ(state_of(plan(), directory(), step).status, StepStatus::missing) << step.name;
+    for (Step const& step : steps_of(plan()))
+        EXPECT_EQ(state_of(plan(), directory(), step).status, StepStatus::missing) << step.name;
 }
 
 TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
@@ -19,7 +20,8 @@ TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
     text.replace(text.find("generations = 20"), 16, "generations = 30");
     write("campaign.toml", text);
     EXPECT_EQ(state("source/001").status, StepStatus::failed);
-    EXPECT_NE(state("source/001").reason.find("evolution.generations"), std::string::npos) << state("source/001").reason;
+    EXPECT_NE(state("source/001").reason.find("evolution.generations"), std::string::npos)
+        << state("source/001").reason;
 }
 
 TEST_F(State, of_a_run_with_another_seed_is_failed) {

@@ -19,7 +19,8 @@ TYPED_TEST(LanesTest, computes_each_lane_as_the_scalar_would) {
         a[i] = static_cast<float>(i) * 1.37f - 3.0f;
         b[i] = static_cast<float>(i % 3) - 0.5f;
     }
-    V const least = lanes::min(a, b), most = lanes::max(a, b), chosen = lanes::select(a < b, a, b), magnitude = lanes::abs(a);
+    V const least = lanes::min(a, b), most = lanes::max(a, b), chosen = lanes::select(a < b, a, b),
+            magnitude = lanes::abs(a);
     V const root = lanes::sqrt(magnitude);
     auto const cut = lanes::truncate(a);
     auto const near = lanes::round<V>(a);

@@ -24,15 +24,22 @@ void expect_lanes_equal_scalar(float low, float high, int count) {
     for (int i = 0; i < count; ++i) {
         V x{};
         for (int lane = 0; lane < W; ++lane)
-            x[lane] = low + (high - low) * static_cast<float>((i * W + lane) % 9973) / 9973.0f + static_cast<float>(i) * 1e-5f;
+            x[lane] = low + (high - low) * static_cast<float>((i * W + lane) % 9973) / 9973.0f +
+                      static_cast<float>(i) * 1e-5f;
         V const e = math::exp<V>(x);
         auto const sc = math::sincos<V>(x);
         for (int lane = 0; lane < W; ++lane) {
             float const one = x[lane];
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(math::exp<float>(one)), std::bit_cast<std::uint32_t>(static_cast<float>(e[lane]))) << one;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(math::exp<float>(one)),
+                      std::bit_cast<std::uint32_t>(static_cast<float>(e[lane])))
+                << one;
             auto const both = math::sincos<float>(one);
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.sin), std::bit_cast<std::uint32_t>(static_cast<float>(sc.sin[lane]))) << one;
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.cos), std::bit_cast<std::uint32_t>(static_cast<float>(sc.cos[lane]))) << one;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.sin),
+                      std::bit_cast<std::uint32_t>(static_cast<float>(sc.sin[lane])))
+                << one;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.cos),
+                      std::bit_cast<std::uint32_t>(static_cast<float>(sc.cos[lane])))
+                << one;
         }
     }
 }
@@ -41,16 +48,20 @@ void expect_lanes_equal_scalar(float low, float high, int count) {
 
 TEST(Exp, is_within_two_ulp_of_libm) {
     double worst = 0;
-    for (float x = -87.0f; x <= 88.0f; x += 0.0007f) worst = std::max(worst, ulps(math::exp(x), std::exp(static_cast<double>(x))));
-    for (float x = -1.0f; x <= 1.0f; x += 0.00001f) worst = std::max(worst, ulps(math::exp(x), std::exp(static_cast<double>(x))));
+    for (float x = -87.0f; x <= 88.0f; x += 0.0007f)
+        worst = std::max(worst, ulps(math::exp(x), std::exp(static_cast<double>(x))));
+    for (float x = -1.0f; x <= 1.0f; x += 0.00001f)
+        worst = std::max(worst, ulps(math::exp(x), std::exp(static_cast<double>(x))));
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(math::exp(0.0f), 1.0f);
 }
 
 TEST(Exp, saturates_instead_of_overflowing) {
     float const infinity = std::numeric_limits<float>::infinity();
-    for (float x : {88.0f, 89.0f, 1300.0f, std::numeric_limits<float>::max(), infinity}) EXPECT_EQ(math::exp(x), math::exp(88.0f));
-    for (float x : {-87.0f, -88.0f, -1300.0f, std::numeric_limits<float>::lowest(), -infinity}) EXPECT_EQ(math::exp(x), math::exp(-87.0f));
+    for (float x : {88.0f, 89.0f, 1300.0f, std::numeric_limits<float>::max(), infinity})
+        EXPECT_EQ(math::exp(x), math::exp(88.0f));
+    for (float x : {-87.0f, -88.0f, -1300.0f, std::numeric_limits<float>::lowest(), -infinity})
+        EXPECT_EQ(math::exp(x), math::exp(-87.0f));
     EXPECT_TRUE(std::isfinite(math::exp(88.0f)));
     EXPECT_TRUE(std::isnormal(math::exp(-87.0f)));
 }
@@ -88,7 +99,9 @@ TEST(Log, is_within_two_ulp_of_libm) {
     auto check = [&](double x) {
         double const exact = std::log(x);
         if (exact == 0) EXPECT_EQ(math::log(x), 0.0);
-        else worst = std::max(worst, std::abs(math::log(x) - exact) / (std::nextafter(std::abs(exact), 1e300) - std::abs(exact)));
+        else
+            worst = std::max(worst, std::abs(math::log(x) - exact) /
+                                        (std::nextafter(std::abs(exact), 1e300) - std::abs(exact)));
     };
     for (int i = 1; i <= 100000; ++i) check(i);
     for (int i = 1; i <= 4000; ++i) check(i / 4000.0);

@@ -14,7 +14,8 @@ namespace {
 constexpr KnowledgeConfig two_steps{2, 1.83f};
 
 /// Windows of two steps; A, B, C and D are more than the threshold apart (5 bits or more), a resembles A (distance 1).
-constexpr test::Step A0{0x000, 0.5f}, A1{0x000, 0.5f}, a0{0x001, 0.5f}, B0{0x01F, 0.5f}, C0{0x1E0, 0.5f}, D0{0x1FF, 0.5f};
+constexpr test::Step A0{0x000, 0.5f}, A1{0x000, 0.5f}, a0{0x001, 0.5f}, B0{0x01F, 0.5f}, C0{0x1E0, 0.5f},
+    D0{0x1FF, 0.5f};
 
 } // namespace
 
@@ -52,8 +53,10 @@ TEST(KnowledgeBuilder, follows_algorithm_1_on_a_lineage_of_three) {
 
 TEST(KnowledgeBuilder, depends_on_the_order_of_individuals) {
     // b lies between A and c: whoever comes first is the feature the others match or miss.
-    Trace const A = trace_of({{0x000, 0.5f}, {0, 0.5f}}), b = trace_of({{0x003, 0.5f}, {0, 0.5f}}), c = trace_of({{0x00F, 0.5f}, {0, 0.5f}});
-    KnowledgeBuilder forward{two_steps, make_scan_index(two_steps)}, middle_first{two_steps, make_scan_index(two_steps)};
+    Trace const A = trace_of({{0x000, 0.5f}, {0, 0.5f}}), b = trace_of({{0x003, 0.5f}, {0, 0.5f}}),
+                c = trace_of({{0x00F, 0.5f}, {0, 0.5f}});
+    KnowledgeBuilder forward{two_steps, make_scan_index(two_steps)},
+        middle_first{two_steps, make_scan_index(two_steps)};
     for (Trace const* trace : {&A, &b, &c}) forward.add_individual(windows_of(*trace, 2), 1);
     for (Trace const* trace : {&b, &A, &c}) middle_first.add_individual(windows_of(*trace, 2), 1);
     EXPECT_EQ(forward.features(), 2);
@@ -79,9 +82,11 @@ TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_numb
     KnowledgeConfig const config;
     Stream rng{51, Purpose::test};
     std::vector<Trace> traces;
-    for (int i = 0; i < 24; ++i) traces.push_back(i % 3 == 2 ? traces[static_cast<std::size_t>(i) - 2] : test::lifelike_trace(rng, 1000));
+    for (int i = 0; i < 24; ++i)
+        traces.push_back(i % 3 == 2 ? traces[static_cast<std::size_t>(i) - 2] : test::lifelike_trace(rng, 1000));
     std::vector<Exhibit> exhibits;
-    for (std::size_t i = 0; i < traces.size(); ++i) exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(i % 5)});
+    for (std::size_t i = 0; i < traces.size(); ++i)
+        exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(i % 5)});
 
     KnowledgeBuilder plain{config, make_scan_index(config)};
     for (Exhibit const& exhibit : exhibits) plain.add_individual(exhibit.windows, exhibit.balls);
@@ -92,7 +97,8 @@ TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_numb
         for (std::size_t const batch : {1u, 7u, 24u}) {
             KnowledgeBuilder builder{config, make_exact_index(config)};
             for (std::size_t first = 0; first < exhibits.size(); first += batch)
-                builder.add_individuals(std::span{exhibits}.subspan(first, std::min(batch, exhibits.size() - first)), threads);
+                builder.add_individuals(std::span{exhibits}.subspan(first, std::min(batch, exhibits.size() - first)),
+                                        threads);
             EXPECT_EQ(builder.matched(), matched);
             EXPECT_EQ(builder.individuals(), exhibits.size());
             KnowledgeBase const base = std::move(builder).finish({});

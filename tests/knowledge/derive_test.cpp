@@ -62,7 +62,8 @@ TEST(KeepValued, keeps_the_bound_itself) {
 }
 
 TEST(KeepConsensus, keeps_what_matches_in_every_other_base) {
-    KnowledgeBase const others[]{base_of({{0x001, 0.1f}, {0x01F, 0.2f}}, {1, 1}), base_of({{0x000, 0.1f}, {0x1E0, 0.3f}}, {1, 1})};
+    KnowledgeBase const others[]{base_of({{0x001, 0.1f}, {0x01F, 0.2f}}, {1, 1}),
+                                 base_of({{0x000, 0.1f}, {0x1E0, 0.3f}}, {1, 1})};
     KnowledgeBase const shared = keep_consensus(four, others);
     ASSERT_EQ(shared.size(), 1);
     EXPECT_EQ(shared.value(0), 2.0);

@@ -39,7 +39,8 @@ struct Lives {
         for (int i = 0; i < traces; ++i) {
             known.push_back(test::lifelike_trace(rng, steps));
             asked.push_back(known.back());
-            for (double change : {0.005, 0.03, 0.1, 0.3}) asked.push_back(variant_of(known.back(), rng, change, change));
+            for (double change : {0.005, 0.03, 0.1, 0.3})
+                asked.push_back(variant_of(known.back(), rng, change, change));
             asked.push_back(test::lifelike_trace(rng, steps));
         }
     }
@@ -54,7 +55,9 @@ struct IsaGuard {
 } // namespace
 
 class EveryConfiguration : public testing::TestWithParam<std::tuple<int, float>> {};
-INSTANTIATE_TEST_SUITE_P(, EveryConfiguration, testing::Combine(testing::Values(1, 7, 20, 40), testing::Values(0.5f, 1.0f, 1.83f, 3.0f, 6.0f)));
+INSTANTIATE_TEST_SUITE_P(, EveryConfiguration,
+                         testing::Combine(testing::Values(1, 7, 20, 40),
+                                          testing::Values(0.5f, 1.0f, 1.83f, 3.0f, 6.0f)));
 
 TEST_P(EveryConfiguration, gives_the_matches_of_the_scan) {
     auto const [window_length, threshold] = GetParam();
@@ -93,7 +96,8 @@ TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_th
         for (int changed = 1; changed <= continuous_count * window_length; changed += 1 + window_length / 7) {
             Trace query = feature;
             for (int bit = 0; bit < bits && bit < window_length * binary_count; ++bit)
-                query.bits[static_cast<std::size_t>(bit % window_length)] |= static_cast<std::uint16_t>(1u << bit / window_length);
+                query.bits[static_cast<std::size_t>(bit % window_length)] |=
+                    static_cast<std::uint16_t>(1u << bit / window_length);
             float const left = config.squared_threshold() - static_cast<float>(bits);
             if (left <= 0) break;
             for (float const share : {0.999f, 0.99999f, 1.0f, 1.00001f}) {
@@ -101,7 +105,8 @@ TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_th
                 if (level > 1) continue;
                 for (int i = 0; i < changed; ++i) query.values[static_cast<std::size_t>(i)] = level;
                 Window const window = windows_of(query, window_length)[0];
-                ASSERT_EQ(exact_search->match(window), scan_search->match(window)) << bits << " bits, " << changed << " values of " << level;
+                ASSERT_EQ(exact_search->match(window), scan_search->match(window))
+                    << bits << " bits, " << changed << " values of " << level;
             }
         }
 }
@@ -138,7 +143,10 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     for (std::vector<Trace>* traces : {&lives.known, &lives.asked})
         for (Trace& trace : *traces) std::fill(trace.bits.begin(), trace.bits.end(), std::uint16_t{0x7E00});
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
-    for (Window const& window : windows_of_all(lives.known, config.window_length)) { scan->add(window); exact->add(window); }
+    for (Window const& window : windows_of_all(lives.known, config.window_length)) {
+        scan->add(window);
+        exact->add(window);
+    }
     auto const scan_search = scan->search(), exact_search = exact->search();
     for (Window const& window : windows_of_all(lives.asked, config.window_length))
         ASSERT_EQ(exact_search->match(window), scan_search->match(window));
@@ -182,7 +190,8 @@ TEST(ExactIndex, takes_queries_beyond_the_range_of_sensors) {
     Trace const features = test::trace_of({{0, 0.0f}, {0, 1.0f}});
     for (Window const& window : windows_of(features, 1)) { scan->add(window); exact->add(window); }
     Trace const queries = test::trace_of({{0, -1.0f}, {0, -0.2f}, {0, 1.3f}, {0, 2.5f}, {0, 1e30f}, {0, -1e30f}});
-    for (Window const& window : windows_of(queries, 1)) EXPECT_EQ(exact->search()->match(window), scan->search()->match(window));
+    for (Window const& window : windows_of(queries, 1))
+        EXPECT_EQ(exact->search()->match(window), scan->search()->match(window));
 }
 
 TEST(ExactIndex, reports_no_feature_that_is_worth_less_than_asked_for_unless_it_is_the_nearest) {

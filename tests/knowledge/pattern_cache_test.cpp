@@ -17,7 +17,8 @@ namespace {
 /// What would be remembered of a pattern: a list that follows from it.
 std::vector<Candidate> list_of(std::uint64_t pattern) {
     std::vector<Candidate> list;
-    for (std::uint64_t i = 0; i < pattern % 7; ++i) list.push_back({{{}, static_cast<std::int32_t>(pattern % 1000 + i)}, static_cast<std::int32_t>(i)});
+    for (std::uint64_t i = 0; i < pattern % 7; ++i)
+        list.push_back({{{}, static_cast<std::int32_t>(pattern % 1000 + i)}, static_cast<std::int32_t>(i)});
     return list;
 }
 

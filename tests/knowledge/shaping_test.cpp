@@ -61,7 +61,8 @@ TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) 
     for (int i = 0; i < base.size(); ++i) scan->add(base.window(i));
     auto const search = scan->search();
     for (int i = 0; i < 40; ++i) {
-        Stream again = i % 2 == 0 ? rng : Stream{3, Purpose::test};   // new traces, and one that the base was built from
+        Stream again =
+            i % 2 == 0 ? rng : Stream{3, Purpose::test};   // new traces, and one that the base was built from
         Trace const trace = test::lifelike_trace(again, 2000);
         rng.bits();
         std::vector<Window> const windows = windows_of(trace, config.window_length);
@@ -86,7 +87,10 @@ TEST(Shaper, answers_several_threads_alike) {
     double const expected = shaper.shaping(windows);
     std::vector<double> got(4, -2);
     std::vector<std::thread> threads;
-    for (double& result : got) threads.emplace_back([&] { for (int k = 0; k < 5; ++k) result = shaper.shaping(windows); });
+    for (double& result : got)
+        threads.emplace_back([&] {
+            for (int k = 0; k < 5; ++k) result = shaper.shaping(windows);
+        });
     for (std::thread& thread : threads) thread.join();
     for (double const result : got) EXPECT_EQ(result, expected);
 }

@@ -31,7 +31,8 @@ inline Trace lifelike_trace(Stream& rng, int steps) {
         for (int channel = 0; channel < continuous_count; ++channel) {
             float& value = values[channel];
             if (channel < 3) value += static_cast<float>(rng.uniform(-0.05, 0.05));
-            else if (rng.chance(0.04)) value = rng.coin() ? (rng.coin() ? 0.0f : 1.0f) : static_cast<float>(rng.uniform());
+            else if (rng.chance(0.04))
+                value = rng.coin() ? (rng.coin() ? 0.0f : 1.0f) : static_cast<float>(rng.uniform());
             value = value < 0 ? 0 : value > 1 ? 1 : value;
             trace.values.push_back(value);
         }

@@ -40,7 +40,8 @@ TEST(SquaredDistance, is_symmetric_and_near_the_sum_in_double_precision) {
         Window const &a = windows[i - 1], &b = windows[i];
         double sum = 0;
         for (std::size_t k = 0; k < a.values.size(); ++k) sum += std::pow(double{a.values[k]} - b.values[k], 2);
-        for (std::size_t k = 0; k < a.bits.size(); ++k) sum += std::popcount(static_cast<unsigned>((a.bits[k] ^ b.bits[k]) & 0x1FF));
+        for (std::size_t k = 0; k < a.bits.size(); ++k)
+            sum += std::popcount(static_cast<unsigned>((a.bits[k] ^ b.bits[k]) & 0x1FF));
         EXPECT_NEAR(squared_distance(a, b), sum, 1e-5 * (1 + sum));
         EXPECT_EQ(squared_distance(a, b), squared_distance(b, a));
     }

@@ -23,7 +23,8 @@ inline std::vector<ReferenceCase> reference_cases() {
         std::istringstream fields{line};
         ReferenceCase reference;
         std::string method, word;
-        fields >> reference.u >> reference.p >> method >> reference.lower_quartile >> reference.median >> reference.upper_quartile >> word;
+        fields >> reference.u >> reference.p >> method >> reference.lower_quartile >> reference.median >>
+            reference.upper_quartile >> word;
         reference.exact = method == "exact";
         while (fields >> word && word != "|") reference.first.push_back(std::stod(word));
         while (fields >> word) reference.second.push_back(std::stod(word));

@@ -41,7 +41,8 @@ struct Choice {
 /// base gets the run whose best-of-run is nearest to the level wished among those not yet taken; ties: the lowest seed.
 ///
 /// What `before` has chosen is kept. Throws Error: too few runs, or a named run is not among them.
-Choice choose_runs(CampaignPlan const&, std::vector<SourceRun> const& finished, std::vector<int> without, Choice const& before = {});
+Choice choose_runs(CampaignPlan const&, std::vector<SourceRun> const& finished, std::vector<int> without,
+                   Choice const& before = {});
 
 void write_choice(std::string const& path, Choice const&);
 Choice read_choice(std::string const& path);

@@ -16,6 +16,7 @@ namespace lore {
 void write_report(CampaignPlan const&, CampaignDirectory const&);
 
 /// report.html: self-contained, opens offline. `figures`: SVG documents by name ("figure3").
-std::string report_page(CampaignPlan const&, Results const&, std::vector<Comparison> const&, std::map<std::string, std::string> const& figures);
+std::string report_page(CampaignPlan const&, Results const&, std::vector<Comparison> const&,
+                        std::map<std::string, std::string> const& figures);
 
 } // namespace lore

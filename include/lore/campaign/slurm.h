@@ -19,12 +19,14 @@ struct BatchJob {
 
 /// Scripts for all that is not done yet, in the order of submission, the report last. Paths in them are absolute.
 ///
-/// A task that stops at a checkpoint because its time is up queues itself again. The choice of source runs waits for all
-/// of them to end, well or not; what is built from others waits for these to end well; the report waits for all.
-std::vector<BatchJob> batch_jobs(CampaignPlan const&, CampaignDirectory const&, Launcher const&, std::string const& program);
+/// A task that stops at a checkpoint because its time is up queues itself again. The choice of source runs waits for
+/// all of them to end, well or not; what is built from others waits for these to end well; the report waits for all.
+std::vector<BatchJob> batch_jobs(CampaignPlan const&, CampaignDirectory const&, Launcher const&,
+                                 std::string const& program);
 
-/// Writes the scripts to DIR/slurm and hands them to sbatch, unless `only_write`. Job ids go to DIR/slurm/jobs.txt; while
-/// any of those is still queued nothing is submitted again. Throws Error, with sbatch's own words.
-std::vector<std::string> submit_campaign(CampaignPlan const&, CampaignDirectory const&, Launcher const&, std::string const& program, bool only_write);
+/// Writes the scripts to DIR/slurm and hands them to sbatch, unless `only_write`. Job ids go to DIR/slurm/jobs.txt;
+/// while any of those is still queued nothing is submitted again. Throws Error, with sbatch's own words.
+std::vector<std::string> submit_campaign(CampaignPlan const&, CampaignDirectory const&, Launcher const&,
+                                         std::string const& program, bool only_write);
 
 } // namespace lore

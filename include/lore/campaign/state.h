@@ -20,9 +20,9 @@ struct StepState {
     double seconds = 0;       ///< of wall time spent on it
 };
 
-/// A run is done when its manifest says so, and failed if it was made with other settings than planned. A knowledge base
-/// is done when its file is there, since lore-kb writes all or nothing. `locks`: whoever holds the step's lock asks
-/// without looking at it, or would see itself at work.
+/// A run is done when its manifest says so, and failed if it was made with other settings than planned. A knowledge
+/// base is done when its file is there, since lore-kb writes all or nothing. `locks`: whoever holds the step's lock
+/// asks without looking at it, or would see itself at work.
 enum class Locks : std::uint8_t { looked_at, ignored };
 StepState state_of(CampaignPlan const&, CampaignDirectory const&, Step const&, Locks locks = Locks::looked_at);
 

@@ -18,7 +18,8 @@ public:
     KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index);
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
     void add_individual(std::span<Window const>, double balls);
-    /// As add_individual for each in order, with the search shared among threads. Precondition: the index is an exact one.
+    /// As add_individual for each in order, with the search shared among threads. Precondition: the index is an exact
+    /// one.
     void add_individuals(std::span<Exhibit const>, int threads);
     int features() const { return static_cast<int>(counts_.size()); }
     std::uint64_t individuals() const { return individuals_; }

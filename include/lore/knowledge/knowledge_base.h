@@ -47,7 +47,9 @@ public:
     Window window(int feature) const;                                ///< valid as long as the knowledge base
     double value(int feature) const { return parts_.values[static_cast<std::size_t>(feature)]; }   ///< r_i [balls]
     double reward_sum(int feature) const { return parts_.reward_sums[static_cast<std::size_t>(feature)]; }
-    std::uint32_t count(int feature) const { return parts_.counts[static_cast<std::size_t>(feature)]; }   ///< individuals that exhibited it
+    std::uint32_t count(int feature) const {
+        return parts_.counts[static_cast<std::size_t>(feature)];
+    }   ///< individuals that exhibited it
     std::span<double const> values() const { return parts_.values; }
 
     /// The parts of a knowledge base; `keep_alive` owns the memory behind the spans (vectors, or a mapped file).

@@ -12,7 +12,8 @@ namespace lore {
 /// How windows are cut and matched.
 struct KnowledgeConfig {
     int   window_length   = 20;     ///< Steps per window [steps]. Paper: T = 20.
-    float match_threshold = 1.83f;  ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
+    float match_threshold =
+        1.83f;   ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
 
     /// What squared distances are compared with, rounded once to float; every index uses this number.
     float squared_threshold() const { return match_threshold * match_threshold; }
