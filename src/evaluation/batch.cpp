@@ -41,6 +41,7 @@ public:
         if (context.shaper) {
             window_length_ = context.shaper->base().config().window_length;
             reader_.emplace(context.shaper->reader());
+            window_values_.resize(static_cast<std::size_t>(window_length_ * continuous_count));
         }
     }
 
@@ -78,14 +79,6 @@ public:
             places[static_cast<std::size_t>(lane)] =
                 valid[static_cast<std::size_t>(lane)] > 0 ? at(lane).bits.data() + at(lane).steps : idle_.data();
         kernel_.transpose_words(chunk.words, chunk.steps, chunk.width, places.data());
-        bool const shaping =
-            reader_ && std::any_of(valid.begin(), valid.end(), [this](int rows) { return rows >= window_length_; });
-        int const columns = chunk.steps * continuous_count;
-        if (shaping) {
-            windows_.resize(static_cast<std::size_t>(columns * chunk.width));
-            kernel_.transpose_values(chunk.values, columns, chunk.width, windows_.data());
-        }
-
         for (int lane = 0; lane < chunk.width; ++lane) {
             int const rows = valid[static_cast<std::size_t>(lane)];
             if (rows == 0) continue;
@@ -96,8 +89,9 @@ public:
                  row < rows; row += steps_per_tile_sample)
                 now.path.push_back(
                     tile_of(context_.arena, chunk.x[row * chunk.width + lane], chunk.y[row * chunk.width + lane]));
-            if (shaping)
-                for (int row = 0; row + window_length_ <= rows; row += window_length_) show_window(lane, row, columns);
+            if (reader_)
+                for (int row = 0; row + window_length_ <= rows; row += window_length_)
+                    show_window(chunk, lane, now.steps + row, row, 1);
             now.steps += rows;
         }
         last_ = chunk;
@@ -114,7 +108,8 @@ public:
             now.steps + (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
         Tile const tile = tile_of(context_.arena, last_.x[row * last_.width + lane], last_.y[row * last_.width + lane]);
         for (int step = first; step < now.steps + steps; step += steps_per_tile_sample) now.path.push_back(tile);
-        if (reader_ && steps >= window_length_) show_still_window(lane, row);
+        // Every window of a robot at rest shows the same row throughout.
+        if (reader_ && steps >= window_length_) show_window(last_, lane, now.steps, row, 0);
         now.steps += steps;
     }
 
@@ -158,22 +153,17 @@ private:
                 times;
     }
 
-    void show_window(int lane, int row, int columns) {
+    /// The window that begins at step `start` of the lane's robot: its values are in the chunk's rows first_row,
+    /// first_row + stride and so on. They are only fetched if its bits leave anything to gain, one time in four.
+    void show_window(LaneChunk const& chunk, int lane, int start, int first_row, int stride) {
         Lane& now = at(lane);
-        auto const length = static_cast<std::size_t>(window_length_);
-        std::span<std::uint16_t const> const bits{now.bits.data() + now.steps + row, length};
-        reader_->see({bits, {windows_.data() + lane * columns + row * continuous_count, length * continuous_count}},
-                     now.shaping);
-    }
-
-    /// Every window of a robot at rest shows the same row throughout.
-    void show_still_window(int lane, int row) {
-        auto const length = static_cast<std::size_t>(window_length_);
-        std::vector<float> values;
+        std::span<std::uint16_t const> const bits{now.bits.data() + start, static_cast<std::size_t>(window_length_)};
+        if (!reader_->may_raise(bits, now.shaping)) return;
+        float* to = window_values_.data();
         for (int step = 0; step < window_length_; ++step)
             for (int c = 0; c < continuous_count; ++c)
-                values.push_back(last_.values[(row * continuous_count + c) * last_.width + lane]);
-        reader_->see({{at(lane).bits.data() + at(lane).steps, length}, values}, at(lane).shaping);
+                *to++ = chunk.values[((first_row + step * stride) * continuous_count + c) * chunk.width + lane];
+        reader_->see({bits, window_values_}, now.shaping);
     }
 
     EvaluationContext const& context_;
@@ -185,7 +175,7 @@ private:
     std::array<Lane, most_lanes> lanes_;
     LaneTally tally_{};
     LaneChunk last_;                     ///< rest() reads the row that was seen last
-    std::vector<float> windows_;         ///< [lane][step][6], the chunk as windows want it
+    std::vector<float> window_values_;   ///< [step][6], of the window that is asked for
     std::vector<std::uint16_t> idle_;    ///< where words of idle lanes go
 };
 

@@ -56,11 +56,6 @@ void tally_chunk(float const* values, int steps, int lanes, LaneTally& tally) {
                        lanes, at, tally);
 }
 
-void transpose_values(float const* values, int columns, int lanes, float* out) {
-    for (int lane = 0; lane < lanes; ++lane)
-        for (int column = 0; column < columns; ++column) out[lane * columns + column] = values[column * lanes + lane];
-}
-
 void transpose_words(std::uint16_t const* words, int steps, int lanes, std::uint16_t* const* out) {
     for (int lane = 0; lane < lanes; ++lane) {
         std::uint16_t* const to = out[lane];
@@ -90,6 +85,6 @@ void count_ones(std::uint16_t const* words, int count, std::uint32_t (&ones)[9])
 
 } // namespace
 
-extern ChunkKernel const chunk_kernel{tally_chunk, transpose_values, transpose_words, count_ones};
+extern ChunkKernel const chunk_kernel{tally_chunk, transpose_words, count_ones};
 
 } // namespace lore::LORE_ISA_NAMESPACE

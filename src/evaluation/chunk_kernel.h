@@ -16,16 +16,13 @@ struct LaneTally {
 /// Adds a chunk of `steps` rows to the histograms of all lanes. values[step][6][lane]; `lanes` is a multiple of the
 /// native width, here and below.
 using TallyChunk = void(float const* values, int steps, int lanes, LaneTally&);
-/// out[lane][column] = values[column][lane] for `columns` columns.
-using TransposeValues = void(float const* values, int columns, int lanes, float* out);
-/// The same for words, appended to one place a lane.
+/// out[lane][step] = words[step][lane], one place a lane.
 using TransposeWords = void(std::uint16_t const* words, int steps, int lanes, std::uint16_t* const* out);
 /// How many of the words have each of the bits 0..8.
 using CountOnes = void(std::uint16_t const* words, int count, std::uint32_t (&ones)[9]);
 
 struct ChunkKernel {
     TallyChunk* tally;
-    TransposeValues* transpose_values;
     TransposeWords* transpose_words;
     CountOnes* count_ones;
 };

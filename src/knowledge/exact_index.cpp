@@ -198,31 +198,38 @@ public:
 
     Match match(Window const& window) override {
         View const view = index_.view();
-        return match(view, window, reachable(view, window));
+        return match(view, window, reachable(view, window.bits));
     }
 
     Match match_above(Window const& window, double least) override {
         View const view = index_.view();
-        std::span<Candidate const> const candidates = reachable(view, window);
+        std::span<Candidate const> const candidates = reachable(view, window.bits);
         // They are in falling order of worth. Is there any above `least` that may be near enough to matter?
-        auto const worth = index_.worth();
-        std::size_t above = 0;
-        while (above < candidates.size() && worth[static_cast<std::size_t>(candidates[above].digest.feature)] > least)
-            ++above;
-        if (above == 0) return {};
-        return match(view, window, candidates, above);
+        auto const end = std::partition_point(candidates.begin(), candidates.end(),
+                                              [&](Candidate const& candidate) { return worth(candidate) > least; });
+        if (end == candidates.begin()) return {};
+        return match(view, window, candidates, static_cast<std::size_t>(end - candidates.begin()));
+    }
+
+    bool may_match_above(std::span<std::uint16_t const> bits, double least) override {
+        std::span<Candidate const> const candidates = reachable(index_.view(), bits);
+        return !candidates.empty() && worth(candidates.front()) > least;
     }
 
 private:
-    std::span<Candidate const> reachable(View const& view, Window const& window) {
-        assert(window.bits.size() == static_cast<std::size_t>(index_.shape().window_length));
-        index_.kernel().pack(index_.shape(), window.bits.data(), words_.data());
+    double worth(Candidate const& candidate) const {
+        return index_.worth()[static_cast<std::size_t>(candidate.digest.feature)];
+    }
+
+    /// All within reach of the bits; once the set is final, in falling order of worth.
+    std::span<Candidate const> reachable(View const& view, std::span<std::uint16_t const> bits) {
+        assert(bits.size() == static_cast<std::size_t>(index_.shape().window_length));
+        index_.kernel().pack(index_.shape(), bits.data(), words_.data());
         if (!index_.final()) return look_up(view);
         if (PatternCache::List const* const known = cache_.find(words_.data())) return cache_.candidates(*known);
         std::span<Candidate> found = look_up(view);
         std::sort(found.begin(), found.end(), [&](Candidate const& a, Candidate const& b) {
-            double const a_worth = index_.worth()[static_cast<std::size_t>(a.digest.feature)],
-                         b_worth = index_.worth()[static_cast<std::size_t>(b.digest.feature)];
+            double const a_worth = worth(a), b_worth = worth(b);
             return a_worth != b_worth ? a_worth > b_worth : a.digest.feature < b.digest.feature;
         });
         auto const end = std::unique(found.begin(), found.end(), [](Candidate const& a, Candidate const& b) {

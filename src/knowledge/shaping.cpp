@@ -62,6 +62,10 @@ void Shaper::Reader::see(Window const& window, ShapingState& state) {
     if (found.found()) state.best = std::max(state.best, loan_->values[static_cast<std::size_t>(found.feature)]);
 }
 
+bool Shaper::Reader::may_raise(std::span<std::uint16_t const> bits, ShapingState const& state) {
+    return state.best < loan_->highest && loan_->search->may_match_above(bits, state.best);
+}
+
 Match Shaper::Reader::match(Window const& window) { return loan_->search->match(window); }
 
 double Shaper::Reader::shaping(std::span<Window const> windows) {

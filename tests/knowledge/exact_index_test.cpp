@@ -204,11 +204,16 @@ TEST(ExactIndex, reports_no_feature_that_is_worth_less_than_asked_for_unless_it_
     for (double& value : worth) value = rng.below(8);
     exact->set_values(worth);
     auto const search = exact->search();
+    int dismissed_by_bits = 0;
     for (Window const& window : windows_of_all(lives.asked, config.window_length)) {
         Match const nearest = search->match(window);
         double const least = rng.below(8);
         Match const found = search->match_above(window, least);
         bool const wanted = nearest.found() && worth[static_cast<std::size_t>(nearest.feature)] > least;
         EXPECT_TRUE(found == nearest || (!wanted && !found.found()));
+        bool const possible = search->may_match_above(window.bits, least);
+        EXPECT_TRUE(possible || !wanted);
+        dismissed_by_bits += !possible;
     }
+    EXPECT_GT(dismissed_by_bits, 0);
 }

@@ -31,6 +31,9 @@ public:
     /// match(), where only a feature worth more than `least` is of interest: anything else may be reported as none.
     /// Precondition: FeatureIndex::set_values was called.
     virtual Match match_above(Window const& window, double least) { (void)least; return match(window); }
+    /// False if no window with these bits, whatever its values, matches a feature worth more than `least`.
+    /// Precondition as above.
+    virtual bool may_match_above(std::span<std::uint16_t const> bits, double least) { (void)bits; (void)least; return true; }
 };
 
 /// The windows of features, one after the other; the only copy while a knowledge base is being built.

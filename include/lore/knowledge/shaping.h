@@ -29,6 +29,8 @@ public:
         /// state.best becomes the value of the window's nearest feature, if it matches one that is worth more. Costs
         /// little once state.best is high: only features worth more are looked for.
         void see(Window const&, ShapingState&);
+        /// False if see() would leave state.best as it is for every window with these bits, whatever its values.
+        bool may_raise(std::span<std::uint16_t const> bits, ShapingState const&);
         /// The nearest feature within the threshold, if any.
         Match match(Window const&);
         /// The largest value among the features that the windows match; -1 if none matches.
