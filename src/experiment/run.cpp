@@ -116,7 +116,8 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         throw;
     } catch (std::exception const& error) {
         bool const memory = dynamic_cast<std::bad_alloc const*>(&error) != nullptr;
-        Error const told(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation + 1), memory ? "out of memory" : error.what(),
+        Error const told(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation + 1),
+                         memory ? "out of memory" : error.what(),
                          memory ? "Resume the run where there is more." : "Resume the run.");
         if (farm.broken()) end_all(session, told);
         throw told;

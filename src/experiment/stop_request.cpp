@@ -30,7 +30,7 @@ extern "C" void on_stop_signal(int number) {
     if (requested.load() == 0) {
         requested_at = now_ns();
         requested = number;
-    } else if (number != SIGXCPU && now_ns() - requested_at.load() >= patience_ns) {   // the kernel repeats XCPU every second
+    } else if (number != SIGXCPU && now_ns() - requested_at.load() >= patience_ns) {   // the kernel repeats XCPU
         std::signal(number, SIG_DFL);
         std::raise(number);   // delivered when this handler returns
     }

@@ -84,7 +84,7 @@ public:
         }
         return code_;
     }
-    /// False if the condition does not become true in a minute (sanitizers, other work on the machine), or the program ends before.
+    /// False if the condition does not become true in a minute (sanitizers, other work), or the program ends before.
     template <class Condition>
     bool wait_until(Condition const& condition) {
         for (int i = 0; i < 6000; ++i) {
