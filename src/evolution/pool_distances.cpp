@@ -8,8 +8,9 @@ namespace lore {
 
 namespace {
 
-/// Children are measured together: fewer would cost more each, more would leave more to the end.
-constexpr int enough = 48;
+/// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave more
+/// to the end.
+constexpr int enough = 96;
 
 } // namespace
 

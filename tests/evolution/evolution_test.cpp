@@ -45,7 +45,7 @@ TEST(Evolve, is_a_pure_function_of_configuration_and_seed) {
 
 TEST(Evolve, does_not_depend_on_the_order_in_which_the_work_is_done) {
     EvolutionConfig many = small_config();   // so many that distances are measured while others are under way
-    many.population = 150;
+    many.population = 200;
     many.founders = 200;
     many.generations = 20;
     for (EvolutionConfig config : {small_config(), many}) {
