@@ -48,7 +48,7 @@ public:
     ~Farm() override;
 
     /// Throws EvaluationFailure. Announces evaluations as long as other ranks are at work; who does much about them
-    /// takes fewer genomes himself, so that all ranks still run out together.
+    /// takes fewer genomes itself, so that all ranks still run out together.
     std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) override;
     /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors' way.
     void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
