@@ -96,7 +96,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::string stop_reason;
     auto const observe = [&](GenerationReport const& report) {
         generation = report.generation;
-        times.selection += report.times.selection;
+        times.selection += report.selection_seconds;
         progress.update(generation, describe(books.add(report), evolution.use_shaping));
         if (generation == evolution.generations) return true;
         stop_reason = stop_request();

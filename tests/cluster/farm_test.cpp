@@ -61,6 +61,20 @@ TEST(Farm, gives_evaluations_in_the_order_of_the_request) {
     }
 }
 
+TEST(Farm, announces_each_evaluation_once_where_others_are_at_work) {
+    Served served;
+    auto const genomes = founders(200, 0);
+    std::vector<Genome const*> pointers;
+    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    auto const expected = pretend(pointers);
+    std::vector<int> announced(genomes.size(), 0);
+    served.farm.evaluate(pointers, [&](int index, Evaluation const& evaluation) {
+        ++announced[static_cast<std::size_t>(index)];
+        EXPECT_EQ(evaluation, expected[static_cast<std::size_t>(index)]) << index;
+    });
+    EXPECT_EQ(announced, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
+}
+
 TEST(Farm, measures_every_distance_as_one_rank_does) {
     Served served;
     auto const genomes = founders(120, 0);
@@ -80,8 +94,8 @@ TEST(Farm, measures_every_distance_as_one_rank_does) {
 
 TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
     EvolutionConfig config = small_evolution(6);
-    config.population = 60;
-    config.founders = 90;
+    config.population = 150;   // so many that some distances are measured while others are under way
+    config.founders = 200;
     auto const go_on = [](GenerationReport const&) { return true; };
     PretendedEvaluator alone{steps};
     auto const expected = evolve(config, 3, alone, {}, go_on).signature.value();

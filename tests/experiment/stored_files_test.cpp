@@ -43,7 +43,7 @@ std::string told(Birth const& birth) {
 std::string lineage_told(std::string const& path) {
     LineageArchive const lineage = read_lineage(path);
     std::string story = fmt::format("generation {}, best {}, last", lineage.generation, text(lineage.best));
-    for (IndividualId const id : lineage.last_population) story += " " + text(id);
+    for (IndividualId const id : lineage.last_population) story += fmt::format(" {}", text(id));
     story += "\n";
     for (auto const& birth : lineage.births) story += told(*birth);
     return story;

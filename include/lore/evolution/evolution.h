@@ -28,16 +28,13 @@ struct EvolutionState {
     Signature signature;   ///< over every generation's survivors, in order: id, balls, objectives
 };
 
-/// Seconds a generation spent where, for the progress file and the summary at the end.
-struct GenerationTimes { double evaluation = 0, distances = 0, selection = 0; };
-
 struct GenerationReport {
     int generation = 0;
     DistanceKind distance = DistanceKind::adhoc;
     int fronts = 0;
     std::span<Individual const> born;      ///< everybody evaluated in this generation
     EvolutionState const* state = nullptr; ///< after selection
-    GenerationTimes times;
+    double selection_seconds = 0;          ///< spent on breeding, ranking and choosing; the evaluator knows its own times
 };
 
 /// Called after each generation, the founders' (0) included; returns whether to go on.
