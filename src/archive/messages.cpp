@@ -2,6 +2,9 @@
 
 #include "byte_stream.h"
 
+#include <cstring>
+#include <limits>
+
 namespace lore {
 
 namespace {
@@ -9,12 +12,22 @@ namespace {
 constexpr std::size_t most_batch = 1u << 20;
 constexpr std::size_t longest_evaluation = 1u << 24;   ///< steps; runs could claim any number of them
 
+/// The first place after `first` with another word, or the end.
+std::size_t end_of_run(std::span<std::uint16_t const> words, std::size_t first) {
+    constexpr std::size_t at_once = 16;   // one comparison in long runs
+    std::size_t end = first + 1;
+    while (end + at_once <= words.size() &&
+           std::memcmp(&words[end], &words[end - 1], at_once * sizeof(std::uint16_t)) == 0)
+        end += at_once;
+    while (end < words.size() && words[end] == words[first]) ++end;
+    return end;
+}
+
 /// Words of consecutive steps are mostly equal: as runs they take a tenth. Written out where that is shorter.
 void put_words(ByteWriter& out, std::vector<std::uint16_t> const& words) {
     ByteWriter runs;
     for (std::size_t i = 0; i < words.size();) {
-        std::size_t end = i + 1;
-        while (end < words.size() && words[end] == words[i]) ++end;
+        std::size_t const end = end_of_run(words, i);
         runs.put_varint(end - i);
         runs.put(words[i]);
         i = end;
@@ -75,10 +88,11 @@ std::vector<Genome> unpack_genomes(std::span<std::byte const> bytes) {
     return genomes;
 }
 
-Bytes pack_evaluations(std::span<Evaluation const> evaluations) {
+Bytes pack_deliveries(std::span<Delivery const> deliveries) {
     ByteWriter out;
-    out.put_varint(evaluations.size());
-    for (Evaluation const& evaluation : evaluations) {
+    out.put_varint(deliveries.size());
+    for (auto const& [ticket, evaluation] : deliveries) {
+        out.put_varint(static_cast<std::uint64_t>(ticket));
         Descriptors const& descriptors = evaluation.descriptors;
         out.put(std::int32_t{evaluation.balls});
         out.put(evaluation.shaping);
@@ -92,10 +106,11 @@ Bytes pack_evaluations(std::span<Evaluation const> evaluations) {
     return out.take();
 }
 
-std::vector<Evaluation> unpack_evaluations(std::span<std::byte const> bytes) {
+std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     ByteReader in{bytes, "a message with evaluations"};
-    std::vector<Evaluation> evaluations(in.get_count(std::min(most_batch, bytes.size())));
-    for (Evaluation& evaluation : evaluations) {
+    std::vector<Delivery> deliveries(in.get_count(std::min(most_batch, bytes.size())));
+    for (auto& [ticket, evaluation] : deliveries) {
+        ticket = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
         Descriptors& descriptors = evaluation.descriptors;
         evaluation.balls = in.get<std::int32_t>();
         evaluation.shaping = in.get<double>();
@@ -107,7 +122,7 @@ std::vector<Evaluation> unpack_evaluations(std::span<std::byte const> bytes) {
         descriptors.entropies = in.get<std::array<double, channel_count>>();
     }
     in.expect_end();
-    return evaluations;
+    return deliveries;
 }
 
 Bytes pack_rows(int first, int last, std::span<Descriptors const* const> pool) {

@@ -21,7 +21,7 @@ namespace lore {
 
 namespace {
 
-constexpr int pulses_a_look = 2;           ///< looking for messages costs about 0.3 us, a pulse comes every 25 us or so
+constexpr int pulses_a_look = 8;           ///< looking for messages costs about 1 us, a pulse comes every 25 us or so
 constexpr int most_in_a_message = 10;      ///< genomes; about 3 kB, which MPI sends without asking first
 constexpr int least_rows_to_share = 32;    ///< below, sending costs more than measuring
 
@@ -53,9 +53,10 @@ struct Farm::State {
 /// A ticket is a place in the order of size, the largest network first.
 class Farm::OwnFeed : public EvaluationFeed {
 public:
-    OwnFeed(State& state, std::span<Genome const* const> genomes, Arrival const& arrival)
-        : results(genomes.size()), state_(state), genomes_(genomes), arrival_(arrival), order_(genomes.size()),
-          ranks_(state.communicator.size()), lanes_(lane_count()), held_(static_cast<std::size_t>(ranks_), 0) {
+    OwnFeed(State& state, std::span<Genome const* const> genomes, Audience* audience)
+        : results(genomes.size()), state_(state), genomes_(genomes), audience_(audience), order_(genomes.size()),
+          ranks_(state.communicator.size()), lanes_(lane_count()), share_(share_of_a_worker()),
+          held_(static_cast<std::size_t>(ranks_), 0), taken_(held_) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
             return larger(*genomes_[static_cast<std::size_t>(a)], *genomes_[static_cast<std::size_t>(b)]);
@@ -72,10 +73,10 @@ public:
         Evaluation& result = results[static_cast<std::size_t>(index(ticket))];
         result = std::move(evaluation);
         ++done_;
-        if (ranks_ == 1 || !arrival_ || failure) return;
+        if (ranks_ == 1 || audience_ == nullptr || failure) return;
         Stopwatch watch;
-        arrival_(index(ticket), result);
-        arrival_seconds_ += watch.lap();
+        audience_->arrive(index(ticket), result);
+        audience_seconds_ += watch.lap();
     }
     void pulse() override {
         if (++pulses_ % pulses_a_look != 0) return;
@@ -85,13 +86,19 @@ public:
 
     void wait_for_others() {
         while (done_ < size() && !failure) {
-            take(state_.post.await(kinds));
+            auto message = state_.post.receive(kinds);
+            if (!message && audience_ != nullptr) {
+                Stopwatch watch;
+                audience_->lull();
+                audience_seconds_ += watch.lap();
+            }
+            take(message ? *message : state_.post.await(kinds));
             hand_out();
         }
     }
     int index(int ticket) const { return order_[static_cast<std::size_t>(ticket)]; }
-    /// Spent on arrivals since the last call [s].
-    double arrival_lap() { return std::exchange(arrival_seconds_, 0.0); }
+    /// Spent by the audience since the last call [s].
+    double audience_lap() { return std::exchange(audience_seconds_, 0.0); }
 
     std::vector<Evaluation> results;
     /// Of another rank. Not thrown from here, where it would look like one of this rank's.
@@ -104,21 +111,28 @@ private:
     int left() const { return failure ? 0 : size() - next_; }
     Genome const* genome(int ticket) const { return genomes_[static_cast<std::size_t>(index(ticket))]; }
 
-    /// Keeps every worker's lanes full with a few genomes waiting, fewer and fewer towards the end, so that all ranks
-    /// run out at about the same time.
+    /// An even share, in half sets (one vector), rounded up.
+    int share_of_a_worker() const {
+        int const half_set = std::max(1, lanes_ / 2);
+        return (size() + ranks_ * half_set - 1) / (ranks_ * half_set) * half_set;
+    }
+
+    /// Keeps the next set waiting at every worker until it has had its share; who is out of work then gets more.
     void hand_out() {
-        int const waiting = std::clamp(left() / (2 * ranks_), 1, lanes_ / 2);
-        int const full = std::min(lanes_ + waiting, std::max(1, size() / ranks_));
         for (int worker = 1; worker < ranks_; ++worker) {
             int& held = held_[static_cast<std::size_t>(worker)];
-            if (held > 0 && held + (waiting + 1) / 2 > full) continue;
-            while (held < full && left() > 0) {
+            int& taken = taken_[static_cast<std::size_t>(worker)];
+            int const due = held == 0 && taken >= share_ ? lanes_ / 2 : std::min(share_ - taken, 2 * lanes_ - held);
+            for (int batch_left = std::min(due, left()); batch_left > 0;) {
                 std::vector<Genome const*> batch;
-                for (int count = std::min({full - held, left(), most_in_a_message}); count > 0; --count)
+                for (int count = std::min(batch_left, most_in_a_message); count > 0; --count)
                     batch.push_back(genome(next_ + static_cast<int>(batch.size())));
                 state_.post.send(worker, MessageKind::evaluate, next_, pack_genomes(batch));
-                held += static_cast<int>(batch.size());
-                next_ += static_cast<int>(batch.size());
+                auto const sent = static_cast<int>(batch.size());
+                held += sent;
+                taken += sent;
+                next_ += sent;
+                batch_left -= sent;
             }
         }
     }
@@ -131,19 +145,25 @@ private:
                     std::string{reinterpret_cast<char const*>(message.payload.data()), message.payload.size()});
             return;
         }
-        for (Evaluation& evaluation : unpack_evaluations(message.payload)) deliver(message.unit, std::move(evaluation));
-        --held_[static_cast<std::size_t>(message.sender)];
+        for (auto& [ticket, evaluation] : unpack_deliveries(message.payload)) {
+            if (ticket >= next_)
+                throw Error("a message between ranks is damaged", "nobody was given what it says is done",
+                            "Check that all ranks run the same build.");
+            deliver(ticket, std::move(evaluation));
+            --held_[static_cast<std::size_t>(message.sender)];
+        }
     }
 
     State& state_;
     std::span<Genome const* const> genomes_;
-    Arrival const& arrival_;
+    Audience* audience_;
     std::vector<int> order_;
-    int ranks_, lanes_;
-    std::vector<int> held_;   ///< by each worker, under way or waiting
+    int ranks_, lanes_, share_;
+    std::vector<int> held_;    ///< by each worker, under way or waiting
+    std::vector<int> taken_;   ///< by each worker so far
     int next_ = 0, done_ = 0;
     unsigned pulses_ = 0;
-    double arrival_seconds_ = 0;
+    double audience_seconds_ = 0;
 };
 
 Farm::Farm(Communicator communicator, StreamEvaluation evaluate)
@@ -153,23 +173,23 @@ Farm::~Farm() {
     if (state_->working) stop();
 }
 
-std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes, Arrival const& arrival) {
+std::vector<Evaluation> Farm::evaluate(std::span<Genome const* const> genomes, Audience* audience) {
     try {
-        return evaluate_everywhere(genomes, arrival);
+        return evaluate_everywhere(genomes, audience);
     } catch (...) {
         state_->give_up();   // whatever it was, other ranks may still be at work
         throw;
     }
 }
 
-std::vector<Evaluation> Farm::evaluate_everywhere(std::span<Genome const* const> genomes, Arrival const& arrival) {
+std::vector<Evaluation> Farm::evaluate_everywhere(std::span<Genome const* const> genomes, Audience* audience) {
     State& state = *state_;
     Stopwatch watch;
-    OwnFeed feed{state, genomes, arrival};
-    auto const book = [&](double& time) {   // what arrivals took is another account's
-        double const arrivals = feed.arrival_lap();
-        time += watch.lap() - arrivals;
-        state.times.distances += arrivals;
+    OwnFeed feed{state, genomes, audience};
+    auto const book = [&](double& time) {   // what the audience took is another account's
+        double const audience_seconds = feed.audience_lap();
+        time += watch.lap() - audience_seconds;
+        state.times.distances += audience_seconds;
     };
     auto const culprit = evaluate_guarded(state.evaluate, feed);
     book(state.times.evaluation);

@@ -13,8 +13,8 @@ namespace lore {
 /// What a message is; also its MPI tag, so that a receiver asks for what it can take and nothing else.
 enum class MessageKind : int {
     evaluate = 1,   ///< genomes; unit: the ticket of the first, the others follow
-    evaluated,      ///< evaluations; unit: likewise
-    rows,           ///< a range of rows of a distance matrix
+    evaluated,      ///< evaluations, each with its ticket
+    rows,           ///< a range of rows of a distance matrix; unit: its number
     distances,      ///< the same, measured
     failure,        ///< unit: the ticket of an evaluation that threw, or that of rows; payload: the reason
     stop,           ///< go home

@@ -13,7 +13,7 @@ namespace lore {
 
 namespace {
 
-constexpr int pulses_a_look = 2;   ///< as rank 0 does
+constexpr int pulses_a_look = 8;   ///< as rank 0 does
 
 std::span<std::byte const> bytes_of(std::string const& text) {
     return std::as_bytes(std::span{text.data(), text.size()});
@@ -29,6 +29,7 @@ public:
         for (Genome& genome : unpack_genomes(message.payload)) waiting_.push_back({ticket++, std::move(genome)});
     }
     std::optional<Item> next() override {
+        send_finished();
         if (waiting_.empty()) look();
         if (waiting_.empty()) return std::nullopt;
         present_ = std::move(waiting_.front());
@@ -36,10 +37,17 @@ public:
         return Item{present_.ticket, &present_.genome};
     }
     void deliver(int ticket, Evaluation evaluation) override {
-        post_.send(0, MessageKind::evaluated, ticket, pack_evaluations({&evaluation, 1}));
+        finished_.push_back({ticket, std::move(evaluation)});
     }
     void pulse() override {
         if (++pulses_ % pulses_a_look == 0) look();
+    }
+
+    /// Lanes that started together end together: one message for all of them.
+    void send_finished() {
+        if (finished_.empty()) return;
+        post_.send(0, MessageKind::evaluated, 0, pack_deliveries(finished_));
+        finished_.clear();
     }
 
 private:
@@ -54,6 +62,7 @@ private:
     };
     Post& post_;
     std::deque<Waiting> waiting_;
+    std::vector<Delivery> finished_;
     Waiting present_;
     unsigned pulses_ = 0;
 };
@@ -74,7 +83,9 @@ void serve(Communicator const& communicator, StreamEvaluation const& evaluation)
         if (message.kind == MessageKind::evaluate) {
             PostedFeed feed{post};
             feed.take(message);
-            if (auto const culprit = evaluate_guarded(evaluate, feed))
+            auto const culprit = evaluate_guarded(evaluate, feed);
+            feed.send_finished();
+            if (culprit)
                 post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
             times.evaluation += watch.lap();
         } else {

@@ -17,7 +17,7 @@ void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> p
     measure_rows(kind, pool, known, static_cast<int>(pool.size()), matrix);
 }
 
-std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const> genomes, Arrival const&) {
+std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const> genomes, Audience*) {
     return evaluate_batch(context_, genomes);
 }
 

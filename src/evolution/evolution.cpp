@@ -44,10 +44,10 @@ Newborns breed(Population const& parents, EvolutionConfig const& config, std::ui
     return born;
 }
 
-std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Arrival const& arrival) {
+std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Audience& audience) {
     std::vector<Genome const*> genomes;
     for (auto const& birth : born) genomes.push_back(&birth->genome);
-    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, arrival);
+    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, &audience);
     assert(evaluations.size() == born.size());
     std::vector<Individual> individuals;
     for (std::size_t k = 0; k < born.size(); ++k) {
@@ -133,9 +133,7 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
 
         DistanceKind const kind = distance_at(seed, generation, config.diversity);
         PoolDistances distances{state.population, static_cast<int>(born.size()), kind};
-        std::vector<Individual> children = evaluate(born, evaluator, [&](int child, Evaluation const& evaluation) {
-            distances.arrive(child, evaluation.descriptors);
-        });
+        std::vector<Individual> children = evaluate(born, evaluator, distances);
 
         Population pool = join(std::move(state.population), std::move(children));
         pool.generation = generation;

@@ -9,8 +9,8 @@ namespace lore {
 namespace {
 
 /// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave more
-/// to the end.
-constexpr int enough = 96;
+/// to the end. While there is nothing else to do, few are enough.
+constexpr int enough = 96, enough_in_a_lull = 16;
 
 } // namespace
 
@@ -23,11 +23,17 @@ PoolDistances::PoolDistances(Population const& parents, int children, DistanceKi
     for (Individual const& parent : parents.members) shown_.push_back(parent.descriptors.get());
 }
 
-void PoolDistances::arrive(int child, Descriptors const& descriptors) {
+void PoolDistances::arrive(int child, Evaluation const& evaluation) {
     order_.push_back(parents_ + child);
-    shown_.push_back(&descriptors);
+    shown_.push_back(&evaluation.descriptors);
+    measure_if_waiting(enough);
+}
+
+void PoolDistances::lull() { measure_if_waiting(enough_in_a_lull); }
+
+void PoolDistances::measure_if_waiting(int least) {
     int const present = static_cast<int>(shown_.size());
-    if (present - measured_ < enough) return;
+    if (present - measured_ < least) return;
     measure_rows(kind_, shown_, measured_, present, matrix_);
     measured_ = present;
 }

@@ -30,15 +30,22 @@ std::vector<Genome const*> pointers(std::vector<Genome> const& genomes) {
     return all;
 }
 
+std::vector<Delivery> deliveries_of(std::vector<Genome> const& genomes, int steps) {
+    std::vector<Delivery> deliveries;
+    for (Evaluation& evaluation : PretendedEvaluator{steps}.evaluate(pointers(genomes)))
+        deliveries.push_back({1000 - static_cast<int>(deliveries.size()), std::move(evaluation)});
+    return deliveries;
+}
+
 } // namespace
 
 TEST(Messages, carry_genomes_and_evaluations_unchanged) {
     for (int count : {0, 1, 2, 40}) {
         auto const genomes = mutated_genomes(count);
         EXPECT_EQ(unpack_genomes(pack_genomes(pointers(genomes))), genomes);
-        auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers(genomes));
-        Bytes const bytes = pack_evaluations(evaluations);
-        EXPECT_EQ(unpack_evaluations(bytes), evaluations);
+        auto const deliveries = deliveries_of(genomes, 4000);
+        Bytes const bytes = pack_deliveries(deliveries);
+        EXPECT_EQ(unpack_deliveries(bytes), deliveries);
         // The pretended bits change at every step: written out, they are no longer than in memory.
         if (count > 0) { EXPECT_LT(bytes.size() / static_cast<std::size_t>(count), 9000u); }
     }
@@ -47,12 +54,14 @@ TEST(Messages, carry_genomes_and_evaluations_unchanged) {
 TEST(Messages, carry_bits_that_repeat_in_little_space) {
     Stream rng{1, Purpose::test};
     for (int length : {0, 1, 2, 127, 128, 129, 4000}) {
-        Evaluation evaluation;
-        while (static_cast<int>(evaluation.descriptors.bits.size()) < length)
-            evaluation.descriptors.bits.insert(evaluation.descriptors.bits.end(), std::min<std::size_t>(1 + rng.below(300), static_cast<std::size_t>(length) - evaluation.descriptors.bits.size()),
-                                               static_cast<std::uint16_t>(rng.below(1u << 15)));
-        Bytes const bytes = pack_evaluations({&evaluation, 1});
-        EXPECT_EQ(unpack_evaluations(bytes).at(0), evaluation);
+        Delivery delivery;
+        std::vector<std::uint16_t>& bits = delivery.evaluation.descriptors.bits;
+        while (static_cast<int>(bits.size()) < length)
+            bits.insert(bits.end(),
+                        std::min<std::size_t>(1 + rng.below(300), static_cast<std::size_t>(length) - bits.size()),
+                        static_cast<std::uint16_t>(rng.below(1u << 15)));
+        Bytes const bytes = pack_deliveries({&delivery, 1});
+        EXPECT_EQ(unpack_deliveries(bytes).at(0), delivery);
         EXPECT_LT(bytes.size(), 400u);
     }
 }
@@ -76,7 +85,7 @@ TEST(Messages, carry_rows_of_distances) {
 TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
     auto const genomes = mutated_genomes(3);
     Bytes const request = pack_genomes(pointers(genomes));
-    Bytes const result = pack_evaluations(PretendedEvaluator{100}.evaluate(pointers(genomes)));
+    Bytes const result = pack_deliveries(deliveries_of(genomes, 100));
     for (std::size_t length = 0; length < request.size(); ++length) EXPECT_THROW(unpack_genomes(std::span{request}.first(length)), Error);
-    for (std::size_t length = 0; length < result.size(); ++length) EXPECT_THROW(unpack_evaluations(std::span{result}.first(length)), Error);
+    for (std::size_t length = 0; length < result.size(); ++length) EXPECT_THROW(unpack_deliveries(std::span{result}.first(length)), Error);
 }

@@ -66,13 +66,18 @@ TEST(Farm, announces_each_evaluation_once_where_others_are_at_work) {
     auto const genomes = founders(200, 0);
     std::vector<Genome const*> pointers;
     for (Genome const& genome : genomes) pointers.push_back(&genome);
-    auto const expected = pretend(pointers);
-    std::vector<int> announced(genomes.size(), 0);
-    served.farm.evaluate(pointers, [&](int index, Evaluation const& evaluation) {
-        ++announced[static_cast<std::size_t>(index)];
-        EXPECT_EQ(evaluation, expected[static_cast<std::size_t>(index)]) << index;
-    });
-    EXPECT_EQ(announced, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
+    struct : Audience {
+        std::vector<Evaluation> expected;
+        std::vector<int> announced;
+        void arrive(int index, Evaluation const& evaluation) override {
+            ++announced[static_cast<std::size_t>(index)];
+            EXPECT_EQ(evaluation, expected[static_cast<std::size_t>(index)]) << index;
+        }
+    } audience;
+    audience.expected = pretend(pointers);
+    audience.announced.assign(genomes.size(), 0);
+    served.farm.evaluate(pointers, &audience);
+    EXPECT_EQ(audience.announced, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
 }
 
 TEST(Farm, measures_every_distance_as_one_rank_does) {

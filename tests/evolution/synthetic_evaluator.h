@@ -19,7 +19,7 @@ public:
     enum class Order { forward, backward, shuffled };
     explicit SyntheticEvaluator(Order order = Order::forward) : order_(order) {}
 
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Arrival const& arrival = {}) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* audience = nullptr) override {
         std::vector<std::size_t> order(genomes.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         if (order_ == Order::backward) std::reverse(order.begin(), order.end());
@@ -28,8 +28,9 @@ public:
         std::size_t done = 0;
         for (std::size_t const k : order) {
             evaluations[k] = judge(*genomes[k]);
-            if (arrival && order_ != Order::forward && ++done <= genomes.size() * 3 / 4)
-                arrival(static_cast<int>(k), evaluations[k]);
+            if (audience == nullptr || order_ == Order::forward || ++done > genomes.size() * 3 / 4) continue;
+            audience->arrive(static_cast<int>(k), evaluations[k]);
+            if (done % 25 == 0) audience->lull();
         }
         evaluated_ += static_cast<int>(genomes.size());
         return evaluations;
@@ -76,7 +77,7 @@ private:
 /// Nobody differs from anybody.
 class ConstantEvaluator : public Evaluator {
 public:
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Arrival const& = {}) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* = nullptr) override {
         Evaluation e;
         e.descriptors.balls = {{0, 0}};
         return std::vector<Evaluation>(genomes.size(), e);

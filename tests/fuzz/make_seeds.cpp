@@ -66,15 +66,16 @@ void results(Seeds const& seeds, fs::path const& samples) {
 
 void messages(Seeds const& seeds, Population const& population) {
     std::vector<Genome const*> genomes;
-    std::vector<Evaluation> evaluations;
+    std::vector<Delivery> deliveries;
     std::vector<Descriptors const*> pool;
     for (Individual const& member : population.members) {
         genomes.push_back(&member.birth->genome);
-        evaluations.push_back(PretendedEvaluator::pretend(member.birth->genome, sample_steps));
+        deliveries.push_back({static_cast<int>(deliveries.size()),
+                              PretendedEvaluator::pretend(member.birth->genome, sample_steps)});
         pool.push_back(member.descriptors.get());
     }
     seeds.write("messages", "genomes", 0, pack_genomes(genomes));
-    seeds.write("messages", "evaluations", 1, pack_evaluations(evaluations));
+    seeds.write("messages", "deliveries", 1, pack_deliveries(deliveries));
     seeds.write("messages", "rows", 2, pack_rows(1, static_cast<int>(pool.size()), pool));
     seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
 }

@@ -18,7 +18,7 @@ void read_input(std::span<std::byte const> input) {
             unpack_genomes(pack_genomes(pointers));
             break;
         }
-        case 1: unpack_evaluations(pack_evaluations(unpack_evaluations(message))); break;
+        case 1: unpack_deliveries(pack_deliveries(unpack_deliveries(message))); break;
         case 2: unpack_rows(message); break;
         case 3: {
             DistanceMatrix matrix{8};

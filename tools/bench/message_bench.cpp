@@ -37,12 +37,12 @@ void evaluations_in(benchmark::State& state) {
     std::vector<Bytes> messages;
     std::size_t bytes = 0;
     for (Individual const& member : members) {
-        Evaluation const evaluation{member.birth->balls, member.birth->shaping, *member.descriptors};
-        messages.push_back(pack_evaluations(std::span{&evaluation, 1}));
+        Delivery const delivery{0, {member.birth->balls, member.birth->shaping, *member.descriptors}};
+        messages.push_back(pack_deliveries(std::span{&delivery, 1}));
         bytes += messages.back().size();
     }
     for (auto _ : state)
-        for (Bytes const& message : messages) benchmark::DoNotOptimize(unpack_evaluations(message));
+        for (Bytes const& message : messages) benchmark::DoNotOptimize(unpack_deliveries(message));
     count(state, members.size(), bytes);
 }
 BENCHMARK(evaluations_in)->Name("message/evaluation/unpack")->Unit(benchmark::kMicrosecond);

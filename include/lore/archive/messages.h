@@ -15,9 +15,15 @@ namespace lore {
 Bytes pack_genomes(std::span<Genome const* const>);
 std::vector<Genome> unpack_genomes(std::span<std::byte const>);
 
-/// An evaluation of 4000 steps takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before; at most 8.4 kB.
-Bytes pack_evaluations(std::span<Evaluation const>);
-std::vector<Evaluation> unpack_evaluations(std::span<std::byte const>);
+/// What became of the genome with this ticket.
+struct Delivery {
+    int ticket = 0;
+    Evaluation evaluation;
+    friend bool operator==(Delivery const&, Delivery const&) = default;
+};
+/// One of 4000 steps takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before; at most 8.4 kB.
+Bytes pack_deliveries(std::span<Delivery const>);
+std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
 
 /// Rows [first, last) of a matrix of trajectory distances, and the paths of pool members 0 .. last-1 that they need.
 struct RowRequest {

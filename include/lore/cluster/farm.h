@@ -38,8 +38,9 @@ struct RankTimes {
 
 /// The ranks of a communicator as one Evaluator, on rank 0. The others are in serve().
 ///
-/// Rank 0 hands genomes to its own lanes one by one and to the others a few at a time, whenever somebody runs short; it
-/// looks after them every few microseconds, so that all lanes of all ranks are busy until the last genome is taken.
+/// Rank 0 hands genomes to its own lanes one by one and to the others in sets that fill their lanes, one set ahead; it
+/// looks after them every few microseconds. A set takes the same time however few it holds, so workers are given whole
+/// ones as long as possible, and rank 0, which has other things to do, what is left.
 /// Results come back in the order of the request whoever made them: any number of ranks gives what one gives.
 class Farm : public Evaluator {
 public:
@@ -47,9 +48,8 @@ public:
     /// Stops the workers, unless broken().
     ~Farm() override;
 
-    /// Throws EvaluationFailure. Announces evaluations as long as other ranks are at work; who does much about them
-    /// takes fewer genomes itself, so that all ranks still run out together.
-    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) override;
+    /// Throws EvaluationFailure. With other ranks at work, announces every evaluation.
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Audience* = nullptr) override;
     /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors' way.
     void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
 
@@ -61,7 +61,7 @@ public:
 private:
     struct State;
     class OwnFeed;
-    std::vector<Evaluation> evaluate_everywhere(std::span<Genome const* const>, Arrival const&);
+    std::vector<Evaluation> evaluate_everywhere(std::span<Genome const* const>, Audience*);
     std::unique_ptr<State> state_;
 };
 

@@ -4,7 +4,6 @@
 #include <lore/knowledge/shaping.h>
 #include <lore/network/genome.h>
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -51,16 +50,22 @@ bool larger(Genome const&, Genome const&);
 /// The same as evaluate_batch, until nothing is under way and the feed has no more.
 void evaluate_stream(EvaluationContext const&, EvaluationFeed&);
 
-/// Told that genomes[index] has been evaluated while others are still under way elsewhere: what is done about it now
-/// costs no time. The evaluation stays where it is until evaluate() returns.
-using Arrival = std::function<void(int index, Evaluation const&)>;
+/// Whoever can do something about evaluations while others are still under way elsewhere, where it costs no time.
+class Audience {
+public:
+    virtual ~Audience() = default;
+    /// genomes[index] has been evaluated. The evaluation stays where it is until evaluate() returns.
+    virtual void arrive(int index, Evaluation const&) = 0;
+    /// There is nothing else to do until the next one arrives.
+    virtual void lull() {}
+};
 
 /// Genomes in, evaluations out, whoever does the work. Evolution sees only this.
 class Evaluator {
 public:
     virtual ~Evaluator() = default;
     /// evaluations[i] belongs to genomes[i]. Announces some of them early, in any order, or none.
-    virtual std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) = 0;
+    virtual std::vector<Evaluation> evaluate(std::span<Genome const* const>, Audience* = nullptr) = 0;
     /// Fills every pair (i, j) with i >= known, j < i. The default does it here; a farm shares the rows.
     virtual void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&);
 };
@@ -70,7 +75,7 @@ class SerialEvaluator : public Evaluator {
 public:
     explicit SerialEvaluator(EvaluationContext context) : context_(std::move(context)) {}
     /// Announces nothing: nobody else is at work.
-    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Arrival const& = {}) override;
+    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Audience* = nullptr) override;
 
 private:
     EvaluationContext context_;
