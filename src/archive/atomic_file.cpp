@@ -47,10 +47,10 @@ struct Temporary {
 std::string name_beside(std::string const& path) { return fmt::format("{}{}{}", path, temporary_mark, ::getpid()); }
 
 /// `path` is what errors call it.
-void write_durably(std::string const& temporary, std::span<std::byte const> content, std::string const& path) {
+void write_durably(std::string const& temporary, BytePieces content, std::string const& path) {
     FileDescriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
     if (file.get() < 0) throw file_error("write", path, errno);
-    write_fully(file.get(), content, path);
+    for (std::span<std::byte const> const piece : content) write_fully(file.get(), piece, path);
     sync_file(file.get(), path);
     if (!file.close()) throw file_error("write", path, errno);
 }
@@ -83,6 +83,10 @@ void sync_directory_of(std::string const& path) {
 }
 
 void write_file_atomically(std::string const& path, std::span<std::byte const> content) {
+    write_file_atomically(path, BytePieces{&content, 1});
+}
+
+void write_file_atomically(std::string const& path, BytePieces content) {
     Temporary temporary{name_beside(path)};
     write_durably(temporary.path, content, path);
     if (::rename(temporary.path.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
@@ -92,7 +96,7 @@ void write_file_atomically(std::string const& path, std::span<std::byte const> c
 
 void replace_file(std::string const& path, std::string const& former, std::span<std::byte const> content) {
     Temporary temporary{name_beside(path)};
-    write_durably(temporary.path, content, path);
+    write_durably(temporary.path, BytePieces{&content, 1}, path);
     if (::rename(path.c_str(), former.c_str()) != 0 && errno != ENOENT) throw file_error("write", former, errno);
     if (::rename(temporary.path.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
     temporary.kept = true;

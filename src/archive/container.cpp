@@ -3,8 +3,6 @@
 #include "posix_file.h"
 #include "zstd_frame.h"
 
-#include <lore/archive/atomic_file.h>
-
 #include <fmt/format.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -48,11 +46,12 @@ struct HashState {
     ~HashState() { XXH3_freeState(state); }
 };
 
-std::uint64_t checksum_of(Header const& header, std::span<std::byte const> stored) {
+std::uint64_t checksum_of(Header const& header, BytePieces stored) {
     HashState const hash;
     XXH3_64bits_reset(hash.state);
     XXH3_64bits_update(hash.state, &header, offsetof(Header, checksum));
-    XXH3_64bits_update(hash.state, stored.data(), stored.size());
+    for (std::span<std::byte const> const piece : stored)
+        if (!piece.empty()) XXH3_64bits_update(hash.state, piece.data(), piece.size());
     return XXH3_64bits_digest(hash.state);
 }
 
@@ -73,9 +72,20 @@ Header header_of(std::span<std::byte const> file, std::string_view name) {
         refuse(name, "it was written on a machine of the other byte order", "Export it there as CSV or NPY.");
     if (header.byte_order != byte_order_mark) refuse(name, "its header was changed", renew);
     if (header.version > container_version)
-        refuse(name, fmt::format("written by a newer Lore: format {}, this one reads {}", header.version, container_version),
+        refuse(name,
+               fmt::format("written by a newer Lore: format {}, this one reads {}", header.version, container_version),
                "Update Lore.");
     if (header.version == 0) refuse(name, "its header was changed", renew);
+    return header;
+}
+
+Header new_header(FileKind kind, std::uint64_t raw_length) {
+    Header header{};
+    std::memcpy(header.magic, magic, sizeof magic);
+    header.version = container_version;
+    header.byte_order = byte_order_mark;
+    header.kind = static_cast<std::uint32_t>(kind);
+    header.raw_length = raw_length;
     return header;
 }
 
@@ -84,13 +94,17 @@ std::span<std::byte const> checked_payload(std::span<std::byte const> file, Head
                                            std::string_view name) {
     auto const stored = file.subspan(sizeof(Header));
     if (header.stored_length > stored.size())
-        refuse(name, fmt::format("the file was cut: {} bytes of {} are there", stored.size(), header.stored_length), renew);
+        refuse(name, fmt::format("the file was cut: {} bytes of {} are there", stored.size(), header.stored_length),
+               renew);
     if (header.stored_length < stored.size())
         refuse(name, fmt::format("{} bytes too many follow its end", stored.size() - header.stored_length), renew);
-    if (checksum_of(header, stored) != header.checksum) refuse(name, "checksum mismatch: the file was changed", renew);
+    if (checksum_of(header, {&stored, 1}) != header.checksum)
+        refuse(name, "checksum mismatch: the file was changed", renew);
     if (header.kind != static_cast<std::uint32_t>(expected))
-        refuse(name, fmt::format("it is a {}, not a {}", lore::name(static_cast<FileKind>(header.kind)), lore::name(expected)),
-               "Check the path.");
+        refuse(
+            name,
+            fmt::format("it is a {}, not a {}", lore::name(static_cast<FileKind>(header.kind)), lore::name(expected)),
+            "Check the path.");
     bool const packed = (header.flags & flag_zstd) != 0;
     if ((header.flags & ~flag_zstd) != 0 || (!packed && header.raw_length != header.stored_length))
         refuse(name, "its header contradicts itself", renew);
@@ -120,17 +134,13 @@ std::string_view name(FileKind kind) {
 }
 
 Bytes seal(FileKind kind, std::span<std::byte const> payload, Packing packing) {
-    Header header{};
-    std::memcpy(header.magic, magic, sizeof magic);
-    header.version = container_version;
-    header.byte_order = byte_order_mark;
-    header.kind = static_cast<std::uint32_t>(kind);
-    header.raw_length = payload.size();
+    Header header = new_header(kind, payload.size());
     Bytes file(sizeof(Header));
     if (packing != Packing::plain) {
         file.resize(sizeof(Header) + ZSTD_compressBound(payload.size()));
-        std::size_t const packed = ZSTD_compress(file.data() + sizeof(Header), file.size() - sizeof(Header), payload.data(),
-                                                 payload.size(), packing == Packing::fast ? fast_level : careful_level);
+        std::size_t const packed =
+            ZSTD_compress(file.data() + sizeof(Header), file.size() - sizeof(Header), payload.data(), payload.size(),
+                          packing == Packing::fast ? fast_level : careful_level);
         if (!ZSTD_isError(packed) && packed < payload.size()) {
             header.flags = flag_zstd;
             file.resize(sizeof(Header) + packed);
@@ -142,7 +152,7 @@ Bytes seal(FileKind kind, std::span<std::byte const> payload, Packing packing) {
     }
     auto const stored = std::span{std::as_const(file)}.subspan(sizeof(Header));
     header.stored_length = stored.size();
-    header.checksum = checksum_of(header, stored);
+    header.checksum = checksum_of(header, {&stored, 1});
     std::memcpy(file.data(), &header, sizeof header);
     return file;
 }
@@ -154,6 +164,17 @@ Bytes unseal(std::span<std::byte const> file, FileKind expected, std::string_vie
 
 void write_container(std::string const& path, FileKind kind, std::span<std::byte const> payload, Packing packing) {
     write_file_atomically(path, seal(kind, payload, packing));
+}
+
+void write_plain_container(std::string const& path, FileKind kind, BytePieces payload) {
+    std::uint64_t length = 0;
+    for (std::span<std::byte const> const piece : payload) length += piece.size();
+    Header header = new_header(kind, length);
+    header.stored_length = length;
+    header.checksum = checksum_of(header, payload);
+    std::vector<std::span<std::byte const>> file{std::as_bytes(std::span{&header, 1})};
+    file.insert(file.end(), payload.begin(), payload.end());
+    write_file_atomically(path, file);
 }
 
 Bytes read_container(std::string const& path, FileKind expected) { return unseal(read_file(path), expected, path); }
@@ -168,7 +189,8 @@ MappedPayload map_container(std::string const& path, FileKind expected) {
     if (length == 0) refuse(path, "the file is empty", renew);
     void* const address = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file.get(), 0);
     if (address == MAP_FAILED) throw file_error("read", path, errno);
-    std::shared_ptr<void const> mapping{address, [length](void const* start) { ::munmap(const_cast<void*>(start), length); }};
+    std::shared_ptr<void const> mapping{address,
+                                        [length](void const* start) { ::munmap(const_cast<void*>(start), length); }};
     std::span<std::byte const> const bytes{static_cast<std::byte const*>(address), length};
     Header const header = header_of(bytes, path);
     auto const stored = checked_payload(bytes, header, expected, path);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -72,9 +73,22 @@ Provenance provenance_of(std::string_view text) {
     return provenance;
 }
 
-template <class T> void place(Bytes& payload, std::uint64_t at, std::span<T const> items) {
-    if (!items.empty()) std::memcpy(payload.data() + at, items.data(), items.size_bytes());
-}
+/// The payload as pieces: arrays where they are, zeros between them.
+class PayloadPieces {
+public:
+    template <class T> void place(std::uint64_t at, std::span<T const> items) {
+        assert(at >= length_ && at - length_ < alignment);
+        static constexpr std::byte zeros[alignment]{};
+        pieces_.push_back({zeros, static_cast<std::size_t>(at - length_)});
+        pieces_.push_back(std::as_bytes(items));
+        length_ = at + items.size_bytes();
+    }
+    BytePieces pieces() const { return pieces_; }
+
+private:
+    std::vector<std::span<std::byte const>> pieces_;
+    std::uint64_t length_ = 0;
+};
 
 template <class T> std::span<T const> view(std::span<std::byte const> payload, std::uint64_t at, std::uint64_t count) {
     return {reinterpret_cast<T const*>(payload.data() + at), static_cast<std::size_t>(count)};
@@ -89,13 +103,15 @@ Preamble checked_preamble(std::span<std::byte const> payload, std::string const&
     Preamble preamble;
     std::memcpy(&preamble, payload.data(), sizeof preamble);
     if (preamble.layout > layout_version)
-        throw Error(fmt::format("cannot read {}", path),
-                    fmt::format("written by a newer Lore: layout {}, this one reads {}", preamble.layout, layout_version),
-                    "Update Lore.");
+        throw Error(
+            fmt::format("cannot read {}", path),
+            fmt::format("written by a newer Lore: layout {}, this one reads {}", preamble.layout, layout_version),
+            "Update Lore.");
     if (preamble.layout == 0) refuse(path, "its layout is unknown");
     if (preamble.binary_channels != binary_count || preamble.continuous_channels != continuous_count)
-        refuse(path, fmt::format("it has {} binary and {} continuous channels, this Lore has {} and {}", preamble.binary_channels,
-                                 preamble.continuous_channels, binary_count, continuous_count));
+        refuse(path,
+               fmt::format("it has {} binary and {} continuous channels, this Lore has {} and {}",
+                           preamble.binary_channels, preamble.continuous_channels, binary_count, continuous_count));
     if (preamble.window_length < 1 || preamble.window_length > longest_window)
         refuse(path, fmt::format("a window length of {} steps", preamble.window_length));
     if (!(preamble.match_threshold > 0) || !std::isfinite(preamble.match_threshold))
@@ -112,12 +128,14 @@ std::string why_invalid(KnowledgeBase::Parts const& parts) {
     auto const outside = [](float value) { return !(value >= 0 && value <= 1); };   // NaN is outside too
     auto const not_finite = [](double value) { return !std::isfinite(value); };
     if (std::any_of(parts.windows.begin(), parts.windows.end(), outside)) return "a window's value is not in 0 .. 1";
-    if (std::any_of(parts.bits.begin(), parts.bits.end(), [](std::uint16_t word) { return (word & ~window_bits_mask) != 0; }))
+    if (std::any_of(parts.bits.begin(), parts.bits.end(),
+                    [](std::uint16_t word) { return (word & ~window_bits_mask) != 0; }))
         return "a window has unknown channels";
     if (std::any_of(parts.values.begin(), parts.values.end(), not_finite) ||
         std::any_of(parts.reward_sums.begin(), parts.reward_sums.end(), not_finite))
         return "a feature's value is not finite";
-    if (std::find(parts.counts.begin(), parts.counts.end(), 0u) != parts.counts.end()) return "a feature that nobody exhibited";
+    if (std::find(parts.counts.begin(), parts.counts.end(), 0u) != parts.counts.end())
+        return "a feature that nobody exhibited";
     return "";
 }
 
@@ -146,15 +164,15 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     preamble.features = features;
     preamble.provenance_length = provenance.size();
 
-    Bytes payload(layout.end);
-    place(payload, 0, std::span<Preamble const>{&preamble, 1});
-    place(payload, layout.values, parts.values);
-    place(payload, layout.reward_sums, parts.reward_sums);
-    place(payload, layout.counts, parts.counts);
-    place(payload, layout.windows, parts.windows);
-    place(payload, layout.bits, parts.bits);
-    place(payload, layout.provenance, std::span<char const>{provenance});
-    write_container(path, FileKind::knowledge_base, payload, Packing::plain);
+    PayloadPieces payload;
+    payload.place(0, std::span<Preamble const>{&preamble, 1});
+    payload.place(layout.values, parts.values);
+    payload.place(layout.reward_sums, parts.reward_sums);
+    payload.place(layout.counts, parts.counts);
+    payload.place(layout.windows, parts.windows);
+    payload.place(layout.bits, parts.bits);
+    payload.place(layout.provenance, std::span<char const>{provenance});
+    write_plain_container(path, FileKind::knowledge_base, payload.pieces());
 }
 
 KnowledgeBase read_knowledge_base(std::string const& path) {

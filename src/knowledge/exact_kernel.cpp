@@ -32,27 +32,46 @@ void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) {
     for (; step < shape.window_length; ++step) place(bits[step] & ((1u << binary_count) - 1), step, binary_count);
 }
 
-void summarize(Shape const& shape, float const* values, Digest& digest) {
-    int const ends[2]{shape.first_half, shape.window_length};
-    int step = 0;
-    for (int half = 0; half < 2; ++half) {
-        using Four = Lanes<float, 4>;
-        Four low{}, high{};   // channels 0..3 and 2..5
-        for (; step < ends[half]; ++step) {
-            low += lanes::load<Four>(values + step * continuous_count);
-            high += lanes::load<Four>(values + step * continuous_count + 2);
-        }
-        float sums[continuous_count];
-        lanes::store(sums, low);
-        lanes::store(sums + 2, high);
-        for (int channel = 0; channel < continuous_count; ++channel) {
-            float number = sums[channel] * shape.scales[half] + 0.5f;
-            // A value outside 0 .. 1 moves to the edge, which only brings two summaries nearer to each other.
-            number = number > 0 ? number : 0;
-            number = number < summary_scale ? number : static_cast<float>(summary_scale);
-            digest.summary[half * continuous_count + channel] = static_cast<std::uint8_t>(number);
-        }
+/// The sums of each continuous channel over steps [first, last).
+LORE_INLINE void add_up(float const* values, int first, int last, float (&sums)[continuous_count]) {
+    using Four = Lanes<float, 4>;
+    Four low{}, high{};   // channels 0..3 and 2..5
+    for (int step = first; step < last; ++step) {
+        low += lanes::load<Four>(values + step * continuous_count);
+        high += lanes::load<Four>(values + step * continuous_count + 2);
     }
+    lanes::store(sums, low);
+    lanes::store(sums + 2, high);
+}
+
+/// A value outside 0 .. 1 moves to the edge, which only brings two windows nearer to each other.
+LORE_INLINE std::uint8_t quantised(float sum, float scale) {
+    float number = sum * scale + 0.5f;
+    number = number > 0 ? number : 0;
+    number = number < summary_scale ? number : static_cast<float>(summary_scale);
+    return static_cast<std::uint8_t>(number);
+}
+
+void summarize(Shape const& shape, float const* values, Digest& digest) {
+    int const ends[3]{0, shape.first_half, shape.window_length};
+    for (int half = 0; half < 2; ++half) {
+        float sums[continuous_count];
+        add_up(values, ends[half], ends[half + 1], sums);
+        for (int channel = 0; channel < continuous_count; ++channel)
+            digest.summary[half * continuous_count + channel] = quantised(sums[channel], shape.scales[half]);
+    }
+}
+
+Key key(Shape const& shape, std::uint64_t const* words, float const* values) {
+    Key key{};
+    float sums[continuous_count];
+    add_up(values, 0, shape.window_length, sums);
+    for (int channel = 0; channel < continuous_count; ++channel)
+        key.sums[channel] = quantised(sums[channel], shape.key_scale);
+    int ones = 0;
+    for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
+    key.ones = static_cast<std::uint8_t>(ones < 255 ? ones : 255);
+    return key;
 }
 
 /// The sum of the squared differences of two summaries.
@@ -73,59 +92,6 @@ LORE_INLINE std::int32_t summary_distance(Digest const& a, Digest const& b) {
     for (int i = 0; i < summary_size; ++i) sum += (a.summary[i] - b.summary[i]) * (a.summary[i] - b.summary[i]);
     return sum;
 #endif
-}
-
-/// FixedWords: the number of words if it is known when compiling, else 0.
-template <int FixedWords>
-LORE_INLINE int within_with(View const& view, std::uint64_t const* words, Candidate* out) {
-    Shape const& shape = view.shape;
-    int const count = FixedWords > 0 ? FixedWords : shape.words;
-    auto const size = static_cast<std::size_t>(entry_size(count));
-    int found = 0;
-    constexpr int tables_at_once = 4;   // whose memory is fetched while the hashes of the others are computed
-    for (int first = 0; first < shape.tables; first += tables_at_once) {
-        int const last = first + tables_at_once < shape.tables ? first + tables_at_once : shape.tables;
-        Bucket buckets[tables_at_once];
-        for (int table = first; table < last; ++table) {
-            std::uint64_t const slot = hash_slot(words, view.masks + table * count, count, view.slot_bits);
-            buckets[table - first] = view.buckets[(static_cast<std::size_t>(table) << view.slot_bits) + slot];
-        }
-        for (int table = first; table < last; ++table)
-            __builtin_prefetch(view.entries + buckets[table - first].start * size);
-        for (int table = first; table < last; ++table) {
-            Bucket const bucket = buckets[table - first];
-            std::uint64_t const* pattern = view.entries + bucket.start * size;
-            for (std::uint32_t i = 0; i < bucket.count; ++i, pattern += size) {
-                int differing = 0;
-                for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
-                // Written in any case, kept or overwritten: the outcome cannot be predicted, and a wrong guess of the
-                // processor costs more than the rest of the loop.
-                std::memcpy(&out[found].digest, pattern + count, sizeof(Digest));
-                out[found].differing = differing;
-                found += differing <= shape.most_differing;
-            }
-        }
-    }
-    return found;
-}
-
-int within(View const& view, std::uint64_t const* words, Candidate* out) {
-    return view.shape.words == 3 ? within_with<3>(view, words, out) : within_with<0>(view, words, out);
-}
-
-int promising(View const& view, Digest const& window, Candidate const* in, int count, Candidate* out) {
-    int kept = 0;
-    for (int i = 0; i < count; ++i) {
-        Candidate const candidate = in[i];
-        out[kept] = candidate;
-        kept += summary_distance(window, candidate.digest) <= view.limits[candidate.differing];
-    }
-    std::size_t const value_count = static_cast<std::size_t>(view.shape.window_length) * continuous_count;
-    for (int i = 0; i < kept; ++i) {   // they will be compared in full
-        float const* const values = view.values + static_cast<std::size_t>(out[i].digest.feature) * value_count;
-        for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
-    }
-    return kept;
 }
 
 /// The part of squared_distance() (knowledge/window.h) that `count` values add, sum for sum.
@@ -153,7 +119,214 @@ LORE_INLINE float continuous_distance(float const* a, float const* b, int count)
     return (by_four[0] + by_four[2]) + (by_four[1] + by_four[3]);
 }
 
-Nearest nearest(View const& view, Query const& query, Candidate const* candidates, int count) {
+LORE_INLINE void take_if_nearer(Nearest& best, std::int32_t feature, float distance) {
+    if (distance < best.squared_distance || (distance == best.squared_distance && feature < best.feature))
+        best = {feature, distance};
+}
+
+/// Whether a feature with the pattern and sums of `a` may be as near to `b` as these allow.
+LORE_INLINE bool keys_are_near(Key const& a, Key const& b, int most_differing, std::int32_t largest) {
+    std::int32_t sum = 0;
+    for (int i = 0; i < continuous_count; ++i) sum += (a.sums[i] - b.sums[i]) * (a.sums[i] - b.sums[i]);
+    int const ones = a.ones > b.ones ? a.ones - b.ones : b.ones - a.ones;
+    return sum <= largest && ones <= most_differing;
+}
+
+/// Writes the numbers of those that keys_are_near, and returns how many.
+LORE_INLINE int near_keys(Key const* keys, std::int32_t const* numbers, int count, Key const& key, int most_differing,
+                          std::int32_t largest, std::int32_t* out) {
+    int found = 0, i = 0;
+    // Several keys at once. Too many differing ones become a term that no bound allows.
+    std::int64_t wanted_bits;
+    std::memcpy(&wanted_bits, &key, sizeof wanted_bits);
+    constexpr std::int64_t sums_bits = 0x0000ffffffffffff;
+    std::int64_t const allowed_bits = sums_bits | std::int64_t{most_differing < 255 ? most_differing : 255} << 48;
+#if defined(__AVX512BW__) && defined(__AVX512VL__) && defined(__BMI2__)
+    __m512i const wanted = _mm512_set1_epi64(wanted_bits);
+    __m512i const sums = _mm512_set1_epi64(sums_bits);
+    __m512i const allowed = _mm512_set1_epi64(allowed_bits);
+    __m512i const bound = _mm512_set1_epi32(largest);
+    for (; i < count; i += 8) {
+        auto const there = static_cast<__mmask8>(count - i >= 8 ? 0xff : (1 << (count - i)) - 1);
+        __m512i const eight = _mm512_maskz_loadu_epi64(there, keys + i);
+        __m512i const difference = _mm512_or_si512(_mm512_subs_epu8(eight, wanted), _mm512_subs_epu8(wanted, eight));
+        __m512i const excess = _mm512_subs_epu8(difference, allowed);
+        __m512i const terms = _mm512_and_si512(difference, sums);
+        __m512i const even = _mm512_unpacklo_epi8(terms, excess), odd = _mm512_unpackhi_epi8(terms, excess);
+        __m512i const a = _mm512_madd_epi16(even, even), b = _mm512_madd_epi16(odd, odd);
+        __m512i pairs =
+            _mm512_add_epi32(_mm512_maskz_unpacklo_epi64(0xff, a, b), _mm512_maskz_unpackhi_epi64(0xff, a, b));
+        pairs = _mm512_add_epi32(pairs, _mm512_maskz_shuffle_epi32(0xffff, pairs, _MM_PERM_CDAB));
+        auto const near = static_cast<__mmask8>(_pext_u32(_mm512_cmple_epi32_mask(pairs, bound), 0x5555u) & there);
+        __m256i const their_numbers = _mm256_maskz_loadu_epi32(there, numbers + i);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + found), _mm256_maskz_compress_epi32(near, their_numbers));
+        found += __builtin_popcount(near);
+    }
+#elif defined(__SSE2__)
+    __m128i const wanted = _mm_set1_epi64x(wanted_bits);
+    __m128i const sums = _mm_set1_epi64x(sums_bits);
+    __m128i const allowed = _mm_set1_epi64x(allowed_bits);
+    __m128i const bound = _mm_set1_epi32(largest);
+    for (; i + 2 <= count; i += 2) {
+        __m128i const two = _mm_loadu_si128(reinterpret_cast<__m128i const*>(keys + i));
+        __m128i const difference = _mm_or_si128(_mm_subs_epu8(two, wanted), _mm_subs_epu8(wanted, two));
+        __m128i const excess = _mm_subs_epu8(difference, allowed);
+        __m128i const terms = _mm_and_si128(difference, sums);
+        __m128i const first = _mm_unpacklo_epi8(terms, excess), second = _mm_unpackhi_epi8(terms, excess);
+        __m128i const a = _mm_madd_epi16(first, first), b = _mm_madd_epi16(second, second);
+        __m128i pairs = _mm_add_epi32(_mm_unpacklo_epi64(a, b), _mm_unpackhi_epi64(a, b));
+        pairs = _mm_add_epi32(pairs, _mm_shuffle_epi32(pairs, 0xb1));
+        int const far = _mm_movemask_epi8(_mm_cmpgt_epi32(pairs, bound));
+        out[found] = numbers[i];
+        found += (far & 1) == 0;
+        out[found] = numbers[i + 1];
+        found += (far >> 8 & 1) == 0;
+    }
+#endif
+    for (; i < count; ++i) {
+        out[found] = numbers[i];
+        found += keys_are_near(keys[i], key, most_differing, largest);
+    }
+    return found;
+}
+
+/// As the search goes on, the best so far leaves less and less room for a better one.
+Nearest closest(GrowingView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
+    Shape const& shape = view.shape;
+    auto const size = static_cast<std::size_t>(record_size(shape.words));
+    std::size_t const value_count = static_cast<std::size_t>(shape.window_length) * continuous_count;
+    auto const record_of = [&](std::int32_t feature) {
+        return view.records + static_cast<std::size_t>(feature) * size;
+    };
+
+    // The smallest bucket first: often one is enough.
+    for (int table = 0; table < shape.tables; ++table) {
+        std::uint64_t const slot = hash_slot(query.words, view.tables.masks + table * shape.words, shape.words,
+                                             view.tables.slot_bits);
+        Bucket const bucket = view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
+        __builtin_prefetch(view.keys + bucket.start);
+        __builtin_prefetch(view.numbers + bucket.start);
+        int place = table;
+        for (; place > 0 && scratch.visits[place - 1].bucket.count > bucket.count; --place)
+            scratch.visits[place] = scratch.visits[place - 1];
+        scratch.visits[place] = {bucket, table};
+    }
+
+    Nearest best{-1, shape.squared_threshold};
+    auto const compare = [&](std::int32_t feature) {
+        std::uint64_t const* const record = record_of(feature);
+        int differing = 0;
+        for (int word = 0; word < shape.words; ++word)
+            differing += __builtin_popcountll(query.words[word] ^ record[word]);
+        float const* const values = view.values + static_cast<std::size_t>(feature) * value_count;
+        take_if_nearer(best, feature,
+                       continuous_distance(query.values, values, static_cast<int>(value_count)) +
+                           static_cast<float>(differing));
+    };
+    // Such a feature has been seen in one of the first `visits` buckets.
+    auto const shares_a_block = [&](std::uint64_t const* record, int visits) {
+        for (int visit = 0; visit < visits; ++visit) {
+            std::uint64_t const* const mask = view.tables.masks + scratch.visits[visit].table * shape.words;
+            std::uint64_t differing = 0;
+            for (int word = 0; word < shape.words; ++word)
+                differing |= (query.words[word] ^ record[word]) & mask[word];
+            if (differing == 0) return true;
+        }
+        return false;
+    };
+    std::int32_t& recent = scratch.recent[hash_slot(query.words, nullptr, shape.words, recent_bits)];
+    if (recent >= 0) compare(recent);
+    for (int seen = 0; seen < shape.tables; ++seen) {
+        // Whoever is in none of the buckets seen so far differs in a bit of each of their blocks.
+        if (best.squared_distance < static_cast<float>(seen)) break;
+        auto const most_bits = [&] {   // in float first: a threshold may be beyond any int
+            return best.squared_distance < static_cast<float>(shape.most_differing)
+                     ? static_cast<int>(best.squared_distance) : shape.most_differing;
+        };
+        auto const left = [&](int differing) {
+            return best.squared_distance * (1 + shape.relative_error) - static_cast<float>(differing);
+        };
+        Bucket const bucket = scratch.visits[seen].bucket;
+        int const count =
+            near_keys(view.keys + bucket.start, view.numbers + bucket.start, static_cast<int>(bucket.count), key,
+                      most_bits(), shape.key_bound.largest(left(0)), scratch.numbers);
+        for (int i = 0; i < count; ++i) __builtin_prefetch(record_of(scratch.numbers[i]));
+        int kept = 0;
+        for (int i = 0; i < count; ++i) {
+            std::uint64_t const* const record = record_of(scratch.numbers[i]);
+            int differing = 0;
+            for (int word = 0; word < shape.words; ++word)
+                differing += __builtin_popcountll(query.words[word] ^ record[word]);
+            if (differing > most_bits() || shares_a_block(record, seen)) continue;
+            Digest digest;
+            std::memcpy(&digest, record + shape.words, sizeof digest);
+            if (summary_distance(summary, digest) > shape.summary_bound.largest(left(differing))) continue;
+            float const* const values = view.values + static_cast<std::size_t>(digest.feature) * value_count;
+            for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
+            scratch.numbers[kept++] = digest.feature;
+        }
+        for (int i = 0; i < kept; ++i) compare(scratch.numbers[i]);
+    }
+    if (best.feature >= 0) recent = best.feature;
+    return best;
+}
+
+/// FixedWords: the number of words if it is known when compiling, else 0.
+template <int FixedWords>
+LORE_INLINE int within_with(FixedView const& view, std::uint64_t const* words, Candidate* out) {
+    Shape const& shape = view.shape;
+    int const count = FixedWords > 0 ? FixedWords : shape.words;
+    auto const size = static_cast<std::size_t>(record_size(count));
+    int found = 0;
+    constexpr int tables_at_once = 4;   // whose memory is fetched while the hashes of the others are computed
+    for (int first = 0; first < shape.tables; first += tables_at_once) {
+        int const last = first + tables_at_once < shape.tables ? first + tables_at_once : shape.tables;
+        Bucket buckets[tables_at_once];
+        for (int table = first; table < last; ++table) {
+            std::uint64_t const slot =
+                hash_slot(words, view.tables.masks + table * count, count, view.tables.slot_bits);
+            buckets[table - first] =
+                view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
+        }
+        for (int table = first; table < last; ++table)
+            __builtin_prefetch(view.records + buckets[table - first].start * size);
+        for (int table = first; table < last; ++table) {
+            Bucket const bucket = buckets[table - first];
+            std::uint64_t const* pattern = view.records + bucket.start * size;
+            for (std::uint32_t i = 0; i < bucket.count; ++i, pattern += size) {
+                int differing = 0;
+                for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
+                // Written in any case, kept or overwritten: the outcome cannot be predicted, and a wrong guess of the
+                // processor costs more than the rest of the loop.
+                std::memcpy(&out[found].digest, pattern + count, sizeof(Digest));
+                out[found].differing = differing;
+                found += differing <= shape.most_differing;
+            }
+        }
+    }
+    return found;
+}
+
+int within(FixedView const& view, std::uint64_t const* words, Candidate* out) {
+    return view.shape.words == 3 ? within_with<3>(view, words, out) : within_with<0>(view, words, out);
+}
+
+int promising(FixedView const& view, Digest const& window, Candidate const* in, int count, Candidate* out) {
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {
+        Candidate const candidate = in[i];
+        out[kept] = candidate;
+        kept += summary_distance(window, candidate.digest) <= view.limits[candidate.differing];
+    }
+    std::size_t const value_count = static_cast<std::size_t>(view.shape.window_length) * continuous_count;
+    for (int i = 0; i < kept; ++i) {   // they will be compared in full
+        float const* const values = view.values + static_cast<std::size_t>(out[i].digest.feature) * value_count;
+        for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
+    }
+    return kept;
+}
+
+Nearest nearest(FixedView const& view, Query const& query, Candidate const* candidates, int count) {
     Nearest best{-1, view.shape.squared_threshold};
     int const value_count = view.shape.window_length * continuous_count;
     for (int i = 0; i < count; ++i) {
@@ -162,15 +335,13 @@ Nearest nearest(View const& view, Query const& query, Candidate const* candidate
             view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count);
         float const distance =
             continuous_distance(query.values, values, value_count) + static_cast<float>(candidates[i].differing);
-        bool const nearer =
-            distance < best.squared_distance || (distance == best.squared_distance && feature < best.feature);
-        if (nearer) best = {feature, distance};
+        take_if_nearer(best, feature, distance);
     }
     return best;
 }
 
 } // namespace
 
-Kernel kernel() { return {pack, summarize, within, promising, nearest}; }
+Kernel kernel() { return {pack, summarize, key, closest, within, promising, nearest}; }
 
 } // namespace lore::exact::LORE_ISA_NAMESPACE

@@ -14,15 +14,28 @@ namespace lore::exact {
 inline constexpr int summary_size  = 2 * continuous_count;
 inline constexpr int summary_scale = 255;   ///< its largest number
 
+/// Says how far quantised sums of two windows may lie from each other: at most slope * left + offset, if the squares of
+/// the windows' differences add up to `left`.
+struct SumBound {
+    float slope, offset;
+    LORE_INLINE std::int32_t largest(float left) const {
+        float const most = slope * (left > 0 ? left : 0.0f) + offset;
+        return most < 2e9f ? static_cast<std::int32_t>(most) : 2000000000;
+    }
+};
+
 /// What is derived from a configuration once (exact_index.cpp explains the bounds).
 struct Shape {
     int window_length;
     int words;            ///< 64-bit words that hold the binary channels of a window
     int first_half;       ///< steps of the first half
     float scales[2];      ///< of the sums of each half
+    float key_scale;      ///< of the sums of all steps
     int tables;
     int most_differing;   ///< bits
     float squared_threshold;
+    float relative_error; ///< of a squared distance in float
+    SumBound summary_bound, key_bound;
 };
 
 /// All that the bounds need of a feature, 16 bytes.
@@ -32,24 +45,48 @@ struct Digest {
 };
 static_assert(sizeof(Digest) == 16);
 
-/// The features whose hashed bits fall into one slot of a table: entries start .. start + count - 1. An entry is a
-/// feature's whole pattern, then its Digest, so that a bucket is read in one sweep.
+/// Less, to pass over most features that share their bits with a window without looking at them: the sums of each
+/// continuous channel over all steps, quantised, and how many bits are set (255: so many or more).
+struct Key {
+    std::uint8_t sums[continuous_count];
+    std::uint8_t ones;
+    std::uint8_t unused;   ///< 0
+};
+static_assert(sizeof(Key) == 8);
+
+/// The features whose hashed bits fall into one slot of a table: places start .. start + count - 1.
 struct Bucket {
     std::uint32_t start;
     std::uint32_t count;
 };
-/// In 64-bit words.
-LORE_INLINE constexpr int entry_size(int pattern_words) {
+
+/// A feature's pattern, then its Digest, in 64-bit words.
+LORE_INLINE constexpr int record_size(int pattern_words) {
     return pattern_words + static_cast<int>(sizeof(Digest) / sizeof(std::uint64_t));
 }
 
-/// A set of features as the kernel reads it.
-struct View {
-    Shape shape;
+/// Hash tables: each feature is in one bucket of every table.
+struct Tables {
     std::uint64_t const* masks;    ///< [table][word]: the bits that a table hashes
     Bucket const* buckets;         ///< [table][2^slot_bits]
     int slot_bits;
-    std::uint64_t const* entries;  ///< [entry][entry_size]
+};
+
+/// A set of features that still grows, as the kernel reads it. A bucket's places are those of `keys` and `numbers`.
+struct GrowingView {
+    Shape shape;
+    Tables tables;
+    Key const* keys;               ///< [place]
+    std::int32_t const* numbers;   ///< [place]: the feature
+    std::uint64_t const* records;  ///< [feature][record_size]
+    float const* values;           ///< [feature][step][6]
+};
+
+/// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
+struct FixedView {
+    Shape shape;
+    Tables tables;
+    std::uint64_t const* records;  ///< [place][record_size]
     float const* values;           ///< [feature][step][6]
     std::int32_t const* limits;    ///< [differing bits]: largest summary distance of a match
 };
@@ -59,6 +96,23 @@ struct Query {
     std::uint64_t const* words;    ///< its pattern
     float const* values;
 };
+
+/// A bucket that a search has to look through.
+struct Visit {
+    Bucket bucket;
+    std::int32_t table;
+};
+
+/// Memory that a search in a growing set needs.
+struct Scratch {
+    Visit* visits;                 ///< one a table
+    std::int32_t* numbers;         ///< room for the largest bucket and spare_numbers more
+    /// [2^recent_bits]: what windows whose bits have this hash matched last, or -1; it is tried first, because the nearer
+    /// a match is that is already known, the less there is to look at.
+    std::int32_t* recent;
+};
+inline constexpr int recent_bits = 16;
+inline constexpr int spare_numbers = 8;
 
 /// A feature that may lie within the threshold.
 struct Candidate {
@@ -75,14 +129,17 @@ struct Kernel {
     /// The pattern of a window: its binary channels, step after step.
     void (*pack)(Shape const&, std::uint16_t const* bits, std::uint64_t* words);
     void (*summarize)(Shape const&, float const* values, Digest&);
+    Key (*key)(Shape const&, std::uint64_t const* words, float const* values);
+    /// The nearest within the threshold; among equals the lowest number.
+    Nearest (*closest)(GrowingView const&, Query const&, Digest const&, Key const&, Scratch);
     /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how
     /// many. `out` has room for all features of all tables and one more.
-    int (*within)(View const&, std::uint64_t const* words, Candidate* out);
+    int (*within)(FixedView const&, std::uint64_t const* words, Candidate* out);
     /// Writes those that the summaries do not rule out, and returns how many. `out` has room for all and one more, and
     /// may be `in`.
-    int (*promising)(View const&, Digest const& window, Candidate const* in, int count, Candidate* out);
+    int (*promising)(FixedView const&, Digest const& window, Candidate const* in, int count, Candidate* out);
     /// The nearest of the candidates if it is within the threshold; among equals the lowest number.
-    Nearest (*nearest)(View const&, Query const&, Candidate const*, int count);
+    Nearest (*nearest)(FixedView const&, Query const&, Candidate const*, int count);
 };
 
 namespace isa_baseline { Kernel kernel(); }

@@ -12,6 +12,9 @@ namespace lore {
 /// disk, no permission, directory gone); the former file survives.
 void write_file_atomically(std::string const& path, std::span<std::byte const> content);
 void write_file_atomically(std::string const& path, std::string_view content);
+/// Pieces one after the other, for content that would not fit into memory twice.
+using BytePieces = std::span<std::span<std::byte const> const>;
+void write_file_atomically(std::string const& path, BytePieces content);
 
 /// Likewise, but what `path` held stays as `former`, in place of what that held. Nothing is touched before the new content
 /// is on the disk whole; killed at the worst moment, a process leaves `former` alone, for lack of a `path`.

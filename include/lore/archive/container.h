@@ -1,5 +1,7 @@
 #pragma once
 
+#include <lore/archive/atomic_file.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -31,6 +33,8 @@ enum class Packing : std::uint8_t { compressed, fast, plain };
 /// Writing is atomic: temporary file in the same directory, fsync, rename, fsync of the directory. On any failure the
 /// former file is still there, whole.
 void write_container(std::string const& path, FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);
+/// A plain one, to be mapped; in pieces, because a knowledge base of everybody would not fit into memory twice.
+void write_plain_container(std::string const& path, FileKind, BytePieces payload);
 /// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
 Bytes read_container(std::string const& path, FileKind expected);
 /// The same on bytes in memory, for tests and fuzzing; `name` is what errors call them.
