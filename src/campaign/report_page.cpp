@@ -130,6 +130,29 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
     return std::move(table).finish();
 }
 
+std::string populations_table(CampaignPlan const& plan, Results const& results) {
+    HtmlTable table{"populations",
+                    {{"treatment", true},
+                     {"generation"},
+                     {"runs"},
+                     {"balls"},
+                     {"fronts"},
+                     {"tied"},
+                     {"best shaping"},
+                     {"share at best"},
+                     {"connections"},
+                     {"hidden"}}};
+    for (PopulationRow const& p : results.populations) {
+        bool const shaped = p.best_shaping >= 0;
+        table.row({plan.treatment(p.treatment).label, std::to_string(p.generation), std::to_string(p.runs),
+                   fmt::format("{:.2f}", p.mean_balls), fmt::format("{:.0f}", p.fronts), fmt::format("{:.0f}", p.tied),
+                   shaped ? fmt::format("{:.2f}", p.best_shaping) : "",
+                   shaped ? fmt::format("{:.2f}", p.shaping_at_max) : "", fmt::format("{:.1f}", p.connections),
+                   fmt::format("{:.1f}", p.hidden)});
+    }
+    return std::move(table).finish();
+}
+
 std::string bases_table(CampaignPlan const& plan, Results const& results) {
     HtmlTable table{"knowledge",
                     {{"knowledge base", true},
@@ -317,6 +340,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                 "balls than one of <i>b</i> (equal counts half).</p>\n" +
                 pairs_table(plan, comparisons);
     }
+    if (!results.populations.empty())
+        page += "<h2 id=\"population\">Populations</h2>\n" + populations_table(plan, results) +
+                "<p class=\"note\">Means over the runs: balls of the survivors; fronts of parents and children together; "
+                "survivors that share all objectives with another; the best value of the shaping objective, and the "
+                "share of the survivors that have it; connections and hidden neurons of their networks.</p>\n";
     if (!results.bases.empty())
         page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
                 "<p class=\"note\">Balls: of the source run's best-of-run. Individuals: whose windows were read, the "

@@ -29,8 +29,16 @@ constexpr int most_curve_points = 401;
 
 struct FinishedRun {
     RunRow row;
-    std::vector<double> balls;   ///< best-of-run by generation, from 0
+    std::vector<ProgressRow> progress;   ///< by generation, from 0
+    int length() const { return static_cast<int>(progress.size()); }
 };
+
+/// Generations that all of the runs have reached.
+int common_length(std::vector<FinishedRun> const& runs) {
+    return std::min_element(runs.begin(), runs.end(), [](FinishedRun const& a, FinishedRun const& b) {
+               return a.length() < b.length();
+           })->length();
+}
 
 std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory,
                                        Treatment const& treatment) {
@@ -40,7 +48,7 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
         if (state_of(plan, directory, step, Locks::ignored).status != StepStatus::done) continue;
         std::string const path = directory.run(step.name);
         Manifest const manifest = read_manifest((fs::path{path} / run_file::manifest).string());
-        std::vector<ProgressRow> const progress = read_progress((fs::path{path} / run_file::progress).string());
+        std::vector<ProgressRow> progress = read_progress((fs::path{path} / run_file::progress).string());
         if (progress.empty())
             throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut",
                         "Remove the run to make it again.");
@@ -53,15 +61,14 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
                      progress.back().evaluations,
                      manifest.signature,
                      fmt::format("{} ({})", manifest.build.version, manifest.build.commit)};
-        for (ProgressRow const& row : progress) entry.balls.push_back(row.best_balls);
+        entry.progress = std::move(progress);
         finished.push_back(std::move(entry));
     }
     return finished;
 }
 
 std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
-    std::size_t length = runs.front().balls.size();
-    for (FinishedRun const& run : runs) length = std::min(length, run.balls.size());
+    auto const length = static_cast<std::size_t>(common_length(runs));
     std::size_t const stride = std::max<std::size_t>(1, (length - 1 + most_curve_points - 2) / (most_curve_points - 1));
     std::vector<std::size_t> generations;
     for (std::size_t g = 0; g < length; g += stride) generations.push_back(g);
@@ -70,13 +77,37 @@ std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedR
     std::vector<std::vector<double>> curves;
     for (FinishedRun const& run : runs) {
         curves.emplace_back();
-        for (std::size_t const g : generations) curves.back().push_back(run.balls[g]);
+        for (std::size_t const g : generations) curves.back().push_back(run.progress[g].best_balls);
     }
     MeanBand const band = bootstrap_mean_band(curves);
     std::vector<CurveRow> rows;
     for (std::size_t c = 0; c < generations.size(); ++c)
         rows.push_back({treatment.name, static_cast<int>(generations[c]), static_cast<int>(runs.size()), band.mean[c],
                         band.low[c], band.high[c]});
+    return rows;
+}
+
+std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
+    int const last = common_length(runs) - 1;
+    std::vector<int> generations{0};
+    for (int decade = 1; decade < last; decade *= 10)
+        for (int const step : {1, 2, 5})
+            if (step * decade < last) generations.push_back(step * decade);
+    if (last > 0) generations.push_back(last);
+
+    std::vector<PopulationRow> rows;
+    for (int const generation : generations) {
+        auto const mean_of = [&](auto column) {
+            double sum = 0;
+            for (FinishedRun const& run : runs)
+                sum += static_cast<double>(run.progress[static_cast<std::size_t>(generation)].*column);
+            return sum / static_cast<double>(runs.size());
+        };
+        rows.push_back({treatment.name, generation, static_cast<int>(runs.size()), mean_of(&ProgressRow::mean_balls),
+                        mean_of(&ProgressRow::fronts), mean_of(&ProgressRow::tied),
+                        mean_of(&ProgressRow::best_shaping), mean_of(&ProgressRow::shaping_at_max),
+                        mean_of(&ProgressRow::mean_connections), mean_of(&ProgressRow::mean_hidden)});
+    }
     return rows;
 }
 
@@ -169,6 +200,8 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         for (FinishedRun const& run : runs) results.runs.push_back(run.row);
         auto const curve = curve_of(treatment, runs);
         results.curves.insert(results.curves.end(), curve.begin(), curve.end());
+        auto const populations = populations_of(treatment, runs);
+        results.populations.insert(results.populations.end(), populations.begin(), populations.end());
     }
     auto const choice = recorded_choice(directory);
     results.bases = knowledge_rows(plan, directory, choice);

@@ -49,6 +49,13 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
                    row.high);
     curves.write(directory, "curves.csv");
 
+    CsvText populations{
+        "treatment,generation,runs,mean_balls,fronts,tied,best_shaping,shaping_at_max,connections,hidden"};
+    for (PopulationRow const& p : results.populations)
+        populations.row("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", p.treatment, p.generation, p.runs,
+                        p.mean_balls, p.fronts, p.tied, p.best_shaping, p.shaping_at_max, p.connections, p.hidden);
+    populations.write(directory, "population.csv");
+
     CsvText bases{"knowledge,kind,source_run,seed,balls,individuals,windows,features,least_value,greatest_value"};
     for (KnowledgeRow const& b : results.bases)
         bases.row("{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals,
@@ -98,6 +105,17 @@ Results read_results(CampaignDirectory const& directory) {
                                   curves.integer(r, curves.column("generation")),
                                   curves.integer(r, curves.column("runs")), curves.number(r, curves.column("mean")),
                                   curves.number(r, curves.column("low")), curves.number(r, curves.column("high"))});
+    if (there("population.csv")) {
+        CsvTable const table = CsvTable::read(directory.file("population.csv"));
+        for (std::size_t r = 0; r < table.rows(); ++r) {
+            auto const number = [&](std::string_view column) { return table.number(r, table.column(column)); };
+            results.populations.push_back({table.text(r, table.column("treatment")),
+                                           table.integer(r, table.column("generation")),
+                                           table.integer(r, table.column("runs")), number("mean_balls"),
+                                           number("fronts"), number("tied"), number("best_shaping"),
+                                           number("shaping_at_max"), number("connections"), number("hidden")});
+        }
+    }
     if (there("kbs.csv")) {
         CsvTable const bases = CsvTable::read(directory.file("kbs.csv"));
         for (std::size_t r = 0; r < bases.rows(); ++r)

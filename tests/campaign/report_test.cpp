@@ -27,6 +27,8 @@ TEST_F(Report, has_a_row_for_every_finished_run) {
     EXPECT_EQ(rows("curves.csv"), 4 * 21);
     EXPECT_EQ(rows("pvalues.csv"), 3);
     EXPECT_EQ(rows("kbs.csv"), 5);
+    EXPECT_TRUE(made("population.csv").starts_with("treatment,generation,runs,mean_balls,fronts,tied,"));
+    EXPECT_EQ(rows("population.csv"), 4 * 6) << "generations 0, 1, 2, 5, 10 and 20";
     for (char const* name : {"report.html", "figures/figure3.svg", "figures/figure3.png", "figures/figure4.svg",
                              "figures/figure4.png", "summary.json"})
         EXPECT_FALSE(made(name).empty()) << name;
@@ -59,7 +61,7 @@ TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone)
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::filesystem::create_directories(scratch.file("kept"));
-    for (char const* name : {"final.csv", "runs.csv", "curves.csv", "kbs.csv", "replay.csv", "values.csv"})
+    for (char const* name : {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "replay.csv", "values.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
     for (char const* name :

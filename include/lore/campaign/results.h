@@ -29,6 +29,19 @@ struct CurveRow {
     double low = 0, high = 0;      ///< 95 % percentile bootstrap band of the mean
 };
 
+/// What a treatment's populations are like at one generation, means over its finished runs: a row of population.csv.
+struct PopulationRow {
+    std::string treatment;
+    int generation = 0;            ///< 0, 1, 2, 5, 10, 20, 50 and so on, and the last
+    int runs = 0;
+    double mean_balls = 0;         ///< of the survivors
+    double fronts = 0;             ///< of the joint ranking
+    double tied = 0;               ///< survivors that share all objectives with another
+    double best_shaping = 0;       ///< [balls]; -1 without a knowledge base
+    double shaping_at_max = 0;     ///< share of the survivors that have it
+    double connections = 0, hidden = 0;   ///< of the survivors' networks
+};
+
 /// A knowledge base: a row of kbs.csv.
 struct KnowledgeRow {
     std::string knowledge;
@@ -68,6 +81,7 @@ struct PanelValues {
 struct Results {
     std::vector<RunRow> runs;
     std::vector<CurveRow> curves;
+    std::vector<PopulationRow> populations;
     std::vector<KnowledgeRow> bases;
     std::vector<Replay> replays;
     std::vector<PanelValues> panels;
@@ -79,7 +93,7 @@ struct Results {
 /// damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
 
-/// final.csv, runs.csv, curves.csv, kbs.csv, replay.csv, values.csv (docs/formats.md).
+/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, replay.csv, values.csv (docs/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
 /// Needs final.csv and curves.csv; what the others would tell is left out where they are missing. Throws Error.
 Results read_results(CampaignDirectory const&);
