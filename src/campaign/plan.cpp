@@ -74,13 +74,14 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
     plan.name = table.required_string("name");
     if (!is_name(plan.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
     plan.label = table.string("label").value_or(plan.name);
-    std::string_view const key = only_key(table, {"balls", "run", "all_of", "random_of", "part_of"});
+    std::string_view const key = only_key(table, {"balls", "run", "lineage_of", "all_of", "random_of", "part_of"});
     if (key == "balls") {
         plan.balls = table.required_number("balls", 0, 1e6);
     } else if (key == "run") {
         plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
     } else {
-        plan.kind = key == "all_of"      ? KnowledgeKind::all
+        plan.kind = key == "lineage_of"  ? KnowledgeKind::same_lineage
+                    : key == "all_of"    ? KnowledgeKind::all
                     : key == "random_of" ? KnowledgeKind::random
                                          : KnowledgeKind::reduced;
         plan.base = table.required_string(key);
@@ -157,9 +158,11 @@ CampaignPlan read_campaign(std::string const& path) {
             table.fail("run", fmt::format("there are only {} source runs", plan.source.runs));
         bases.push_back(knowledge.name);
         plan.knowledge.push_back(std::move(knowledge));
-        if (plan.knowledge.back().kind == KnowledgeKind::all &&
+        KnowledgeKind const kind = plan.knowledge.back().kind;
+        if ((kind == KnowledgeKind::all || kind == KnowledgeKind::same_lineage) &&
             plan.knowledge_base(plan.knowledge.back().base).kind != KnowledgeKind::lineage)
-            table.fail("all_of", "it must name a knowledge base made from a lineage");
+            table.fail(kind == KnowledgeKind::all ? "all_of" : "lineage_of",
+                       "it must name a knowledge base with 'balls' or 'run'");
     }
     auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
                                              [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });

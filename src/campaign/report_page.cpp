@@ -340,11 +340,6 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                 "balls than one of <i>b</i> (equal counts half).</p>\n" +
                 pairs_table(plan, comparisons);
     }
-    if (!results.populations.empty())
-        page += "<h2 id=\"population\">Populations</h2>\n" + populations_table(plan, results) +
-                "<p class=\"note\">Means over the runs: balls of the survivors; fronts of parents and children together; "
-                "survivors that share all objectives with another; the best value of the shaping objective, and the "
-                "share of the survivors that have it; connections and hidden neurons of their networks.</p>\n";
     if (!results.bases.empty())
         page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
                 "<p class=\"note\">Balls: of the source run's best-of-run. Individuals: whose windows were read, the "
@@ -361,6 +356,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                    "bases (0: not found in one "
                    "of them).");
     page += replay_section(plan, results);
+    if (!results.populations.empty())
+        page += "<h2 id=\"population\">Populations</h2>\n" + populations_table(plan, results) +
+                "<p class=\"note\">Means over the runs: balls of the survivors; fronts of parents and children together; "
+                "survivors that share all objectives with another; the best value of the shaping objective, and the "
+                "share of the survivors that have it; connections and hidden neurons of their networks.</p>\n";
     page += "<h2 id=\"all-runs\">All runs</h2>\n" + runs_table(plan, results);
 
     std::set<std::string> versions;

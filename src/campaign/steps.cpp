@@ -45,12 +45,16 @@ std::string chosen_run(Choice const* choice, KnowledgePlan const& lineage_base) 
     return choice == nullptr ? run_step("source", 0) : run_step("source", choice->of(lineage_base.name).run);
 }
 
-std::vector<std::string> build_command(CampaignDirectory const& directory, Launcher const& launcher,
-                                       KnowledgePlan const& knowledge, Choice const* choice) {
+std::vector<std::string> build_command(CampaignPlan const& plan, CampaignDirectory const& directory,
+                                       Launcher const& launcher, KnowledgePlan const& knowledge,
+                                       Choice const* choice) {
     std::vector<std::string> command{program(launcher, "lore-kb")};
     auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
     switch (knowledge.kind) {
         case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
+        case KnowledgeKind::same_lineage:
+            add({"build", directory.run(chosen_run(choice, plan.knowledge_base(knowledge.base)))});
+            break;
         case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
         case KnowledgeKind::random:
             add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)});
@@ -106,7 +110,8 @@ std::vector<Step> steps_of(CampaignPlan const& plan) {
     for (KnowledgePlan const& knowledge : plan.knowledge) {
         std::vector<std::string> after;
         switch (knowledge.kind) {
-            case KnowledgeKind::lineage: after = {"choose"}; break;
+            case KnowledgeKind::lineage:
+            case KnowledgeKind::same_lineage: after = {"choose"}; break;
             case KnowledgeKind::all: {
                 std::string const archive = archive_step(knowledge.name);
                 steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
@@ -161,7 +166,7 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
             command.insert(command.end(), {"--archive", "all"});
             return command;
         }
-        case StepKind::build: return build_command(directory, launcher, plan.knowledge_base(step.subject), choice);
+        case StepKind::build: return build_command(plan, directory, launcher, plan.knowledge_base(step.subject), choice);
         case StepKind::choose: break;
     }
     return {};

@@ -48,12 +48,26 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     EXPECT_EQ(steps_of(paper).size(), 30u + 1 + 6 + 1 + 210);
     CampaignPlan const small = read_campaign(LORE_SOURCE_DIR "/jobs/small.toml");
     EXPECT_EQ(small.report_order, paper.report_order);
+    CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/ties.toml");
+    EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90);
+    // Works in the directory of the paper's campaign: what they share has the same name and the same meaning.
+    CampaignPlan const beyond = read_campaign(LORE_SOURCE_DIR "/jobs/beyond.toml");
+    CampaignDirectory const directory{"paper"};
+    for (Step const& step : steps_of(beyond))
+        for (Step const& same : steps_of(paper))
+            if (step.name == same.name) {
+                EXPECT_EQ(command_of(beyond, directory, {}, step, nullptr),
+                          command_of(paper, directory, {}, same, nullptr));
+            }
 }
 
 TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
     EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, consensus is missing"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
+    EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
+    EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls' or 'run'"),
+              std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
     EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
@@ -94,6 +108,14 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
               "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
     EXPECT_EQ(command("knowledge/kb1_top"),
               "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
+    write("narrow.toml",
+          std::string{test::small_campaign}.insert(
+              test::small_campaign.find("[[treatment]]"),
+              "[[knowledge]]\nname = \"narrow\"\nlineage_of = \"kb1\"\noptions = [\"--threshold\", \"1.5\"]\n"));
+    CampaignPlan const narrow = read_campaign(scratch.file("narrow.toml"));
+    EXPECT_EQ(shell_text(command_of(narrow, CampaignDirectory{"c"}, Launcher{},
+                                    steps_named(steps_of(narrow), {"knowledge/narrow"}).front(), &choice)),
+              "lore-kb build c/runs/source/003 --threshold 1.5 --out c/knowledge/narrow.lorekb");
     EXPECT_EQ(shell_text({"a b", "it's", ""}), "'a b' 'it'\\''s' ''");
 
     Launcher four;

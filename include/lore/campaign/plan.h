@@ -19,10 +19,11 @@ struct Treatment {
 };
 
 enum class KnowledgeKind : std::uint8_t {
-    lineage,   ///< Algorithm 1 over the lineage of a source run's best
-    all,       ///< over everybody evaluated in the source run of `base`
-    random,    ///< `base` with drawn values
-    reduced    ///< a part of `base`
+    lineage,        ///< Algorithm 1 over the lineage of a source run's best
+    same_lineage,   ///< over that of `base` once more, with other options
+    all,            ///< over everybody evaluated in the source run of `base`
+    random,         ///< `base` with drawn values
+    reduced         ///< a part of `base`
 };
 
 /// A knowledge base to be made.
@@ -32,7 +33,7 @@ struct KnowledgePlan {
     KnowledgeKind kind = KnowledgeKind::lineage;
     double balls = 0;                     ///< lineage: the level wished of the source run's best-of-run [balls]
     int run = 0;                          ///< lineage: this source run, whatever its balls; 0: choose by `balls`
-    std::string base;                     ///< all, random, reduced: the knowledge base it starts from
+    std::string base;                     ///< all but lineage: the knowledge base it starts from
     std::uint64_t seed = 1;               ///< random: of the draw
     std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
     std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
