@@ -19,7 +19,8 @@ std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results con
             if (first.empty() || second.empty()) continue;
             MannWhitney const test = mann_whitney(first, second);
             comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u,
-                                   test.p, test.p, vargha_delaney_a12(first, second), test.exact});
+                                   test.p, test.p, vargha_delaney_a12(first, second), bootstrap_a12(first, second),
+                                   test.exact});
             p_values.push_back(test.p);
         }
     }
@@ -79,6 +80,8 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                            {"p", c.p},
                                            {"p_holm", c.p_holm},
                                            {"a12", c.a12},
+                                           {"a12_low", c.a12_band.low},
+                                           {"a12_high", c.a12_band.high},
                                            {"exact", c.exact}});
     document["knowledge"] = Json::array();
     for (KnowledgeRow const& base : results.bases)
@@ -91,7 +94,9 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"windows", base.windows},
                                          {"features", base.features},
                                          {"least_value", base.least_value},
-                                         {"greatest_value", base.greatest_value}});
+                                         {"greatest_value", base.greatest_value},
+                                         {"at_greatest", base.at_greatest},
+                                         {"shown_once", base.shown_once}});
     return document.dump(2) + "\n";
 }
 

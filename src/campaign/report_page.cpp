@@ -120,13 +120,14 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
 
 std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
     HtmlTable table{
-        "pairs", {{"a", true}, {"b", true}, {"n a"}, {"n b"}, {"U"}, {"p"}, {"p (Holm)"}, {"A12"}, {"method", true}}};
+        "pairs", {{"a", true}, {"b", true}, {"n a"}, {"n b"}, {"U"}, {"p"}, {"p (Holm)"}, {"A12"}, {"95 %"}, {"method", true}}};
     for (Comparison const& c : comparisons)
         table.row(
             {plan.treatment(c.a).label, plan.treatment(c.b).label, std::to_string(c.n_a), std::to_string(c.n_b),
              fmt::format("{}", c.u), p_text(c.p), p_text(c.p_holm), fmt::format("{:.2f}", c.a12),
-             c.exact ? "exact" : "normal, ties"},
-            {"", "", "", "", "", fmt::format("{}", c.p), fmt::format("{}", c.p_holm), fmt::format("{}", c.a12), ""});
+             fmt::format("{:.2f} .. {:.2f}", c.a12_band.low, c.a12_band.high), c.exact ? "exact" : "normal, ties"},
+            {"", "", "", "", "", fmt::format("{}", c.p), fmt::format("{}", c.p_holm), fmt::format("{}", c.a12),
+             fmt::format("{}", c.a12_band.low), ""});
     return std::move(table).finish();
 }
 
@@ -163,14 +164,17 @@ std::string bases_table(CampaignPlan const& plan, Results const& results) {
                      {"individuals"},
                      {"windows"},
                      {"features"},
-                     {"values"}}};
+                     {"values"},
+                     {"at the greatest"},
+                     {"shown once"}}};
     for (KnowledgeRow const& base : results.bases) {
         auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
                                           [&](KnowledgePlan const& k) { return k.name == base.knowledge; });
         table.row({planned == plan.knowledge.end() ? base.knowledge : planned->label, base.kind,
                    std::to_string(base.source_run), std::to_string(base.seed), std::to_string(base.balls),
                    std::to_string(base.individuals), std::to_string(base.windows), std::to_string(base.features),
-                   fmt::format("{:.2f} .. {:.2f}", base.least_value, base.greatest_value)});
+                   fmt::format("{:.2f} .. {:.2f}", base.least_value, base.greatest_value),
+                   std::to_string(base.at_greatest), std::to_string(base.shown_once)});
     }
     return std::move(table).finish();
 }
@@ -337,13 +341,14 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                 p_value_square(plan, comparisons);
         page += "<p>The same pairs with Holm's correction for all of them, and the effect size A12: the probability "
                 "that a run of <i>a</i> collects more "
-                "balls than one of <i>b</i> (equal counts half).</p>\n" +
+                "balls than one of <i>b</i> (equal counts half), with its percentile bootstrap interval.</p>\n" +
                 pairs_table(plan, comparisons);
     }
     if (!results.bases.empty())
         page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
                 "<p class=\"note\">Balls: of the source run's best-of-run. Individuals: whose windows were read, the "
-                "length of the lineage where it is one.</p>\n";
+                "length of the lineage where it is one. Features: all, those of the greatest value, and those that one "
+                "individual alone has shown.</p>\n";
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().step);
     page += figure(
         figures, "figure5",

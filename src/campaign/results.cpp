@@ -124,11 +124,13 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
         if (source == nullptr || !fs::exists(directory.knowledge(planned.name))) continue;
         KnowledgeBase const base = read_knowledge_base(directory.knowledge(planned.name));
         KnowledgeRow row{planned.name, base.provenance().kind, source->run, source->seed, source->balls,
-                         base.provenance().individuals, base.provenance().windows, base.size(), 0, 0};
+                         base.provenance().individuals, base.provenance().windows, base.size(), 0, 0, 0, 0};
         if (base.size() > 0) {
             auto const [least, greatest] = std::minmax_element(base.values().begin(), base.values().end());
             row.least_value = *least;
             row.greatest_value = *greatest;
+            row.at_greatest = static_cast<int>(std::count(base.values().begin(), base.values().end(), *greatest));
+            for (int feature = 0; feature < base.size(); ++feature) row.shown_once += base.count(feature) == 1;
         }
         rows.push_back(std::move(row));
     }

@@ -56,10 +56,11 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
                         p.mean_balls, p.fronts, p.tied, p.best_shaping, p.shaping_at_max, p.connections, p.hidden);
     populations.write(directory, "population.csv");
 
-    CsvText bases{"knowledge,kind,source_run,seed,balls,individuals,windows,features,least_value,greatest_value"};
+    CsvText bases{"knowledge,kind,source_run,seed,balls,individuals,windows,features,least_value,greatest_value,"
+                  "at_greatest,shown_once"};
     for (KnowledgeRow const& b : results.bases)
-        bases.row("{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals,
-                  b.windows, b.features, b.least_value, b.greatest_value);
+        bases.row("{},{},{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals,
+                  b.windows, b.features, b.least_value, b.greatest_value, b.at_greatest, b.shown_once);
     bases.write(directory, "kbs.csv");
 
     CsvText replay{"replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected"};
@@ -124,7 +125,8 @@ Results read_results(CampaignDirectory const& directory) {
                  bases.integer(r, bases.column("source_run")), bases.natural(r, bases.column("seed")),
                  bases.integer(r, bases.column("balls")), bases.natural(r, bases.column("individuals")),
                  bases.natural(r, bases.column("windows")), bases.integer(r, bases.column("features")),
-                 bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value"))});
+                 bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value")), bases.integer(r, bases.column("at_greatest")),
+                 bases.integer(r, bases.column("shown_once"))});
     }
     if (there("replay.csv")) {
         CsvTable const replay = CsvTable::read(directory.file("replay.csv"));

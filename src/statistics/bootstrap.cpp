@@ -2,6 +2,7 @@
 
 #include <lore/core/error.h>
 #include <lore/core/random.h>
+#include <lore/statistics/mann_whitney.h>
 #include <lore/statistics/quantiles.h>
 
 #include <algorithm>
@@ -38,6 +39,21 @@ MeanBand bootstrap_mean_band(std::span<std::vector<double> const> curves, Bootst
         band.high.push_back(quantile(means, (1 + config.level) / 2));
     }
     return band;
+}
+
+Interval bootstrap_a12(std::span<double const> first, std::span<double const> second, BootstrapConfig const& config) {
+    std::vector<double> drawn[2], effects;
+    auto const draw = [&](std::span<double const> from, std::uint32_t resample, std::uint32_t which) {
+        Stream rng{config.seed, Purpose::bootstrap, resample, 1 + which};
+        drawn[which].resize(from.size());
+        for (double& value : drawn[which]) value = from[rng.below(static_cast<std::uint32_t>(from.size()))];
+    };
+    for (int r = 0; r < std::max(1, config.resamples); ++r) {
+        draw(first, static_cast<std::uint32_t>(r), 0);
+        draw(second, static_cast<std::uint32_t>(r), 1);
+        effects.push_back(vargha_delaney_a12(drawn[0], drawn[1]));
+    }
+    return {quantile(effects, (1 - config.level) / 2), quantile(effects, (1 + config.level) / 2)};
 }
 
 } // namespace lore

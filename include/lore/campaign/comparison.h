@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/campaign/results.h>
+#include <lore/statistics/bootstrap.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct Comparison {
     double p = 1;       ///< two-sided
     double p_holm = 1;  ///< corrected over all pairs of this campaign's targets
     double a12 = 0.5;   ///< probability that a run of `a` beats one of `b`
+    Interval a12_band;  ///< its 95 % bootstrap interval; not in pvalues.csv
     bool exact = false;
 };
 

@@ -53,6 +53,8 @@ struct KnowledgeRow {
     std::uint64_t windows = 0;
     int features = 0;
     double least_value = 0, greatest_value = 0;
+    int at_greatest = 0;           ///< features of that value
+    int shown_once = 0;            ///< features that one individual alone has shown
 };
 
 /// Where the robot is and what has happened at the beginning of a step: a row of replay.csv.

@@ -24,4 +24,12 @@ struct MeanBand {
 /// or if their lengths differ.
 MeanBand bootstrap_mean_band(std::span<std::vector<double> const> curves, BootstrapConfig const& = {});
 
+struct Interval {
+    double low = 0, high = 0;
+};
+
+/// Percentile bootstrap interval of vargha_delaney_a12: both samples are drawn anew, each from itself. Of no width where
+/// no value of one sample lies among those of the other. Throws Error for an empty sample or one that holds a NaN.
+Interval bootstrap_a12(std::span<double const> first, std::span<double const> second, BootstrapConfig const& = {});
+
 } // namespace lore
