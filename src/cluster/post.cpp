@@ -11,7 +11,7 @@ namespace lore {
 namespace {
 
 constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
-constexpr int polls_before_sleeping = 4000;          ///< about 1.2 ms, as long as rank 0 takes between generations
+constexpr int polls_before_sleeping = 4000;          ///< longer than rank 0 takes between two generations
 constexpr std::chrono::microseconds sleep{20};        ///< with the kernel's slack about 80
 
 struct MessageHeader {
