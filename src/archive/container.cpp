@@ -163,6 +163,7 @@ Bytes unseal(std::span<std::byte const> file, FileKind expected, std::string_vie
 }
 
 void write_container(std::string const& path, FileKind kind, std::span<std::byte const> payload, Packing packing) {
+    if (packing == Packing::plain) return write_plain_container(path, kind, {&payload, 1});
     write_file_atomically(path, seal(kind, payload, packing));
 }
 

@@ -21,7 +21,6 @@ namespace lore {
 
 namespace {
 
-constexpr int pulses_a_look = 8;           ///< looking at every second one took 4 % of a worker's time; they come every 25 us
 constexpr int most_in_a_message = 10;      ///< genomes; about 3 kB, which MPI sends without asking first
 constexpr int least_rows_to_share = 32;    ///< below, sending costs more than measuring
 

@@ -13,8 +13,6 @@ namespace lore {
 
 namespace {
 
-constexpr int pulses_a_look = 8;   ///< as rank 0 does
-
 std::span<std::byte const> bytes_of(std::string const& text) {
     return std::as_bytes(std::span{text.data(), text.size()});
 }

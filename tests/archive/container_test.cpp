@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <xxhash.h>
 
+#include <array>
 #include <cstring>
 
 using namespace lore;
@@ -150,4 +151,15 @@ TEST(Container, maps_a_plain_payload_aligned_to_64_bytes_and_copies_a_compressed
         EXPECT_EQ(read_container(scratch.file("a"), FileKind::knowledge_base), payload);
         EXPECT_EQ(kind_of_file(scratch.file("a")), FileKind::knowledge_base);
     }
+}
+
+TEST(Container, written_in_pieces_is_the_file_that_is_sealed_whole) {
+    Scratch const scratch;
+    Bytes payload(1000);
+    for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(i * 7);
+    std::span<std::byte const> const whole{payload};
+    std::array<std::span<std::byte const>, 4> const pieces{whole.first(1), whole.subspan(1, 0), whole.subspan(1, 700),
+                                                           whole.subspan(701)};
+    write_plain_container(scratch.file("pieces"), FileKind::knowledge_base, pieces);
+    EXPECT_EQ(read_file(scratch.file("pieces")), seal(FileKind::knowledge_base, payload, Packing::plain));
 }
