@@ -135,7 +135,6 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
     HtmlTable table{"populations",
                     {{"treatment", true},
                      {"generation"},
-                     {"runs"},
                      {"balls"},
                      {"fronts"},
                      {"tied"},
@@ -145,7 +144,7 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
                      {"hidden"}}};
     for (PopulationRow const& p : results.populations) {
         bool const shaped = p.best_shaping >= 0;
-        table.row({plan.treatment(p.treatment).label, std::to_string(p.generation), std::to_string(p.runs),
+        table.row({plan.treatment(p.treatment).label, std::to_string(p.generation),
                    fmt::format("{:.2f}", p.mean_balls), fmt::format("{:.0f}", p.fronts), fmt::format("{:.0f}", p.tied),
                    shaped ? fmt::format("{:.2f}", p.best_shaping) : "",
                    shaped ? fmt::format("{:.2f}", p.shaping_at_max) : "", fmt::format("{:.1f}", p.connections),
@@ -158,21 +157,20 @@ std::string bases_table(CampaignPlan const& plan, Results const& results) {
     HtmlTable table{"knowledge",
                     {{"knowledge base", true},
                      {"made from", true},
-                     {"source run"},
+                     {"run"},
                      {"seed"},
                      {"balls"},
                      {"individuals"},
-                     {"windows"},
                      {"features"},
                      {"values"},
-                     {"at the greatest"},
-                     {"shown once"}}};
+                     {"at top"},
+                     {"once"}}};
     for (KnowledgeRow const& base : results.bases) {
         auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
                                           [&](KnowledgePlan const& k) { return k.name == base.knowledge; });
         table.row({planned == plan.knowledge.end() ? base.knowledge : planned->label, base.kind,
                    std::to_string(base.source_run), std::to_string(base.seed), std::to_string(base.balls),
-                   std::to_string(base.individuals), std::to_string(base.windows), std::to_string(base.features),
+                   std::to_string(base.individuals), std::to_string(base.features),
                    fmt::format("{:.2f} .. {:.2f}", base.least_value, base.greatest_value),
                    std::to_string(base.at_greatest), std::to_string(base.shown_once)});
     }
@@ -346,9 +344,9 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     }
     if (!results.bases.empty())
         page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
-                "<p class=\"note\">Balls: of the source run's best-of-run. Individuals: whose windows were read, the "
-                "length of the lineage where it is one. Features: all, those of the greatest value, and those that one "
-                "individual alone has shown.</p>\n";
+                "<p class=\"note\">Run, seed and balls: of the source run and its best-of-run. Individuals: whose windows "
+                "were read, the length of the lineage where it is one. Features: all, those at the top of the values, and "
+                "those that one individual alone has shown.</p>\n";
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().step);
     page += figure(
         figures, "figure5",
