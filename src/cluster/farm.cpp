@@ -2,6 +2,7 @@
 
 #include "guarded_stream.h"
 #include "post.h"
+#include "share.h"
 #include "shared_rows.h"
 
 #include <lore/archive/messages.h>
@@ -54,7 +55,7 @@ class Farm::OwnFeed : public EvaluationFeed {
 public:
     OwnFeed(State& state, std::span<Genome const* const> genomes, Audience* audience)
         : results(genomes.size()), state_(state), genomes_(genomes), audience_(audience), order_(genomes.size()),
-          ranks_(state.communicator.size()), lanes_(lane_count()), share_(share_of_a_worker()),
+          ranks_(state.communicator.size()), lanes_(lane_count()), share_(share_of_a_worker(size(), ranks_, lanes_)),
           held_(static_cast<std::size_t>(ranks_), 0), taken_(held_) {
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
@@ -109,12 +110,6 @@ private:
     int size() const { return static_cast<int>(genomes_.size()); }
     int left() const { return failure ? 0 : size() - next_; }
     Genome const* genome(int ticket) const { return genomes_[static_cast<std::size_t>(index(ticket))]; }
-
-    /// An even share, in half sets (one vector), rounded up.
-    int share_of_a_worker() const {
-        int const half_set = std::max(1, lanes_ / 2);
-        return (size() + ranks_ * half_set - 1) / (ranks_ * half_set) * half_set;
-    }
 
     /// Keeps the next set waiting at every worker until it has had its share; who is out of work then gets more.
     void hand_out() {

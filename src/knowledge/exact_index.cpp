@@ -159,12 +159,12 @@ private:
 void ExactIndex::add(Window const& window) {
     assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && !final());
     Digest digest{{}, size()};
-    kernel_.summarize(shape_, window.values.data(), digest);
     features_.add(window);
     std::uint64_t* const record = records_.add();
     kernel_.pack(shape_, window.bits.data(), record);
+    exact::Key const key = kernel_.summarize_with_key(shape_, record, window.values.data(), digest);
     std::memcpy(record + shape_.words, &digest, sizeof digest);
-    growing_->add(records_, kernel_.key(shape_, record, window.values.data()));
+    growing_->add(records_, key);
 }
 
 /// Windows of one run keep repeating the same patterns (85 of 100 in an evolved population), so the features within
@@ -202,8 +202,8 @@ private:
         exact::Kernel const& kernel = index_.kernel();
         kernel.pack(index_.shape(), window.bits.data(), words_.data());
         Digest digest{};
-        kernel.summarize(index_.shape(), window.values.data(), digest);
-        exact::Key const key = kernel.key(index_.shape(), words_.data(), window.values.data());
+        exact::Key const key =
+            kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest);
         visits_.resize(static_cast<std::size_t>(index_.shape().tables));
         std::size_t const room = index_.largest_bucket() + exact::spare_numbers;
         if (numbers_.size() < room) numbers_.resize(room * 2);

@@ -52,22 +52,30 @@ LORE_INLINE std::uint8_t quantised(float sum, float scale) {
     return static_cast<std::uint8_t>(number);
 }
 
-void summarize(Shape const& shape, float const* values, Digest& digest) {
-    int const ends[3]{0, shape.first_half, shape.window_length};
-    for (int half = 0; half < 2; ++half) {
-        float sums[continuous_count];
-        add_up(values, ends[half], ends[half + 1], sums);
-        for (int channel = 0; channel < continuous_count; ++channel)
-            digest.summary[half * continuous_count + channel] = quantised(sums[channel], shape.scales[half]);
-    }
+LORE_INLINE void add_up_halves(Shape const& shape, float const* values, float (&sums)[2][continuous_count]) {
+    add_up(values, 0, shape.first_half, sums[0]);
+    add_up(values, shape.first_half, shape.window_length, sums[1]);
 }
 
-Key key(Shape const& shape, std::uint64_t const* words, float const* values) {
+LORE_INLINE void put_summary(Shape const& shape, float const (&sums)[2][continuous_count], Digest& digest) {
+    for (int half = 0; half < 2; ++half)
+        for (int channel = 0; channel < continuous_count; ++channel)
+            digest.summary[half * continuous_count + channel] = quantised(sums[half][channel], shape.scales[half]);
+}
+
+void summarize(Shape const& shape, float const* values, Digest& digest) {
+    float sums[2][continuous_count];
+    add_up_halves(shape, values, sums);
+    put_summary(shape, sums, digest);
+}
+
+Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float const* values, Digest& digest) {
+    float sums[2][continuous_count];
+    add_up_halves(shape, values, sums);
+    put_summary(shape, sums, digest);
     Key key{};
-    float sums[continuous_count];
-    add_up(values, 0, shape.window_length, sums);
     for (int channel = 0; channel < continuous_count; ++channel)
-        key.sums[channel] = quantised(sums[channel], shape.key_scale);
+        key.sums[channel] = quantised(sums[0][channel] + sums[1][channel], shape.key_scale);
     int ones = 0;
     for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
     key.ones = static_cast<std::uint8_t>(ones < 255 ? ones : 255);
@@ -342,6 +350,6 @@ Nearest nearest(FixedView const& view, Query const& query, Candidate const* cand
 
 } // namespace
 
-Kernel kernel() { return {pack, summarize, key, closest, within, promising, nearest}; }
+Kernel kernel() { return {pack, summarize, summarize_with_key, closest, within, promising, nearest}; }
 
 } // namespace lore::exact::LORE_ISA_NAMESPACE

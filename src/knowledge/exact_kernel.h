@@ -129,7 +129,8 @@ struct Kernel {
     /// The pattern of a window: its binary channels, step after step.
     void (*pack)(Shape const&, std::uint16_t const* bits, std::uint64_t* words);
     void (*summarize)(Shape const&, float const* values, Digest&);
-    Key (*key)(Shape const&, std::uint64_t const* words, float const* values);
+    /// The same, and the key of a window with this pattern.
+    Key (*summarize_with_key)(Shape const&, std::uint64_t const* words, float const* values, Digest&);
     /// The nearest within the threshold; among equals the lowest number.
     Nearest (*closest)(GrowingView const&, Query const&, Digest const&, Key const&, Scratch);
     /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how

@@ -1,6 +1,7 @@
 #include <lore/cluster/farm.h>
 
 #include "archive/random_population.h"
+#include "share.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,15 @@ TEST(Farm, gives_evaluations_in_the_order_of_the_request) {
         for (Genome const& genome : genomes) pointers.push_back(&genome);
         EXPECT_EQ(served.farm.evaluate(pointers), pretend(pointers)) << count;
     }
+}
+
+TEST(ShareOfAWorker, is_even_in_half_sets_and_leaves_the_rest_to_rank_0) {
+    EXPECT_EQ(share_of_a_worker(200, 2, 32), 112) << "3 1/2 sets, and 2 3/4 for rank 0";
+    EXPECT_EQ(share_of_a_worker(200, 2, 16), 104);
+    EXPECT_EQ(share_of_a_worker(200, 4, 32), 64);
+    EXPECT_EQ(share_of_a_worker(3, 8, 32), 16);
+    EXPECT_EQ(share_of_a_worker(0, 2, 32), 0);
+    EXPECT_EQ(share_of_a_worker(5, 2, 1), 3) << "without lanes";
 }
 
 TEST(Farm, announces_each_evaluation_once_where_others_are_at_work) {
