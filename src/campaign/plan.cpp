@@ -90,13 +90,16 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
         plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
     else plan.options = table.strings("options").value_or(std::vector<std::string>{});
     if (plan.kind == KnowledgeKind::reduced) {
-        std::string_view const how = only_key(table, {"top", "least_value", "consensus"});
+        std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
         if (how == "top")
             plan.options.insert(plan.options.begin(),
                                 {"--top", fmt::format("{}", *table.integer("top", 1, 100'000'000))});
         if (how == "least_value")
             plan.options.insert(plan.options.begin(),
                                 {"--min-value", fmt::format("{}", *table.number("least_value", -1, 1e6))});
+        if (how == "least_count")
+            plan.options.insert(plan.options.begin(),
+                                {"--min-count", fmt::format("{}", *table.integer("least_count", 1, 100'000'000))});
         if (how == "consensus") plan.consensus = *table.strings("consensus");
     }
     table.reject_unknown();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,13 @@ namespace lore {
 namespace {
 
 template <class T> std::vector<T> copy_of(std::span<T const> items) { return {items.begin(), items.end()}; }
+
+std::vector<int> features_where(KnowledgeBase const& base, auto const& holds) {
+    std::vector<int> features;
+    for (int i = 0; i < base.size(); ++i)
+        if (holds(i)) features.push_back(i);
+    return features;
+}
 
 KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, std::string what) {
     KnowledgeArrays kept;
@@ -57,10 +65,13 @@ KnowledgeBase keep_top(KnowledgeBase const& base, int count) {
 }
 
 KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value) {
-    std::vector<int> features;
-    for (int i = 0; i < base.size(); ++i)
-        if (base.value(i) >= least_value) features.push_back(i);
-    return keep(base, features, fmt::format("value at least {}", least_value));
+    return keep(base, features_where(base, [&](int i) { return base.value(i) >= least_value; }),
+                fmt::format("value at least {}", least_value));
+}
+
+KnowledgeBase keep_shown(KnowledgeBase const& base, int least_count) {
+    return keep(base, features_where(base, [&](int i) { return std::cmp_greater_equal(base.count(i), least_count); }),
+                fmt::format("shown by at least {}", least_count));
 }
 
 KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others) {

@@ -63,7 +63,7 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
 
 TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
-    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, consensus is missing"), std::string::npos);
+    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, least_count, consensus is missing"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
     EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls' or 'run'"),
@@ -116,6 +116,11 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     EXPECT_EQ(shell_text(command_of(narrow, CampaignDirectory{"c"}, Launcher{},
                                     steps_named(steps_of(narrow), {"knowledge/narrow"}).front(), &choice)),
               "lore-kb build c/runs/source/003 --threshold 1.5 --out c/knowledge/narrow.lorekb");
+    write("shown.toml", std::string{test::small_campaign}.replace(test::small_campaign.find("top = 10"), 8, "least_count = 5"));
+    CampaignPlan const shown = read_campaign(scratch.file("shown.toml"));
+    EXPECT_EQ(shell_text(command_of(shown, CampaignDirectory{"c"}, Launcher{},
+                                    steps_named(steps_of(shown), {"knowledge/kb1_top"}).front(), &choice)),
+              "lore-kb reduce c/knowledge/kb1.lorekb --min-count 5 --out c/knowledge/kb1_top.lorekb");
     EXPECT_EQ(shell_text({"a b", "it's", ""}), "'a b' 'it'\\''s' ''");
 
     Launcher four;

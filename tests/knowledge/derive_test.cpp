@@ -61,6 +61,14 @@ TEST(KeepValued, keeps_the_bound_itself) {
     EXPECT_EQ(keep_valued(four, 5.01).size(), 0);
 }
 
+TEST(KeepShown, keeps_what_so_many_individuals_have_shown) {
+    KnowledgeArrays arrays{{1, 2, 3}, std::vector<float>(3 * 6), {2.0, 8.0, 5.0}, {20.0, 8.0, 15.0}, {10, 1, 3}};
+    KnowledgeBase const base{four.config(), {}, std::move(arrays)};
+    EXPECT_EQ(values_of(keep_shown(base, 1)), (std::vector<double>{2.0, 8.0, 5.0}));
+    EXPECT_EQ(values_of(keep_shown(base, 3)), (std::vector<double>{2.0, 5.0}));
+    EXPECT_EQ(keep_shown(base, 11).size(), 0);
+}
+
 TEST(KeepConsensus, keeps_what_matches_in_every_other_base) {
     KnowledgeBase const others[]{base_of({{0x001, 0.1f}, {0x01F, 0.2f}}, {1, 1}),
                                  base_of({{0x000, 0.1f}, {0x1E0, 0.3f}}, {1, 1})};

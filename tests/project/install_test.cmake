@@ -1,13 +1,32 @@
-# Installs the build into a scratch prefix, builds tests/project/consumer against it, runs it.
+# Installs the build into a scratch prefix, builds examples/newcomers against it and runs it: it must evolve what
+# lore-evolve does.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
-foreach(command
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${scratch}/prefix"
-    "${CMAKE_COMMAND};-S;${SOURCE}/tests/project/consumer;-B;${scratch}/build;-DCMAKE_PREFIX_PATH=${scratch}/prefix;-DCMAKE_CXX_COMPILER=${CXX};-DCMAKE_CXX_FLAGS=${FLAGS}"
-    "${CMAKE_COMMAND};--build;${scratch}/build"
-    "${scratch}/build/consumer")
-  execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+
+function(run result_variable)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${command}\n${output}")
+    message(FATAL_ERROR "${ARGN}\n${output}${errors}")
   endif()
+  set(${result_variable} "${output}${errors}" PARENT_SCOPE)
+endfunction()
+
+run(output ${CMAKE_COMMAND} --install ${BUILD} --prefix ${scratch}/prefix)
+run(output ${CMAKE_COMMAND} -S ${SOURCE}/examples/newcomers -B ${scratch}/build -DCMAKE_PREFIX_PATH=${scratch}/prefix
+    -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(output ${CMAKE_COMMAND} --build ${scratch}/build)
+
+set(settings evolution.generations=3 evolution.population=20 evolution.founders=40 evolution.ties=older episode.steps=200)
+run(example ${scratch}/build/newcomers ${SOURCE}/jobs/source.toml 7 ${settings})
+list(TRANSFORM settings PREPEND "--set;" OUTPUT_VARIABLE options)
+run(program ${scratch}/prefix/bin/lore-evolve ${SOURCE}/jobs/source.toml --seed 7 --out ${scratch}/run ${options})
+
+foreach(output example program)
+  string(REGEX MATCH "signature: [0-9a-f]+" ${output}_signature "${${output}}")
 endforeach()
+if(NOT example_signature OR NOT example_signature STREQUAL program_signature)
+  message(FATAL_ERROR "the example evolves something else than lore-evolve:\n${example}\n${program}")
+endif()
+if(NOT example MATCHES "generation,newcomers,tied,fronts\n0,20,[^\n]*\n1,[0-9]+,[^\n]*\n2,[^\n]*\n3,")
+  message(FATAL_ERROR "the example's rows are not what they should be:\n${example}")
+endif()

@@ -103,6 +103,13 @@ TEST_F(LoreKb, derives_and_multiplies) {
     EXPECT_EQ(top.provenance().derivation.size(), 4u);
     expect_done("reduce kb.lorekb --consensus top.lorekb --out both.lorekb");
     EXPECT_GE(read_knowledge_base(scratch.file("both.lorekb")).size(), 2);
+    KnowledgeBase const base = read_knowledge_base(scratch.file("kb.lorekb"));
+    std::span<std::uint32_t const> const counts = base.parts().counts;
+    std::uint32_t const most = *std::max_element(counts.begin(), counts.end());
+    expect_done("reduce kb.lorekb --min-count " + std::to_string(most) + " --out shown.lorekb");
+    EXPECT_EQ(read_knowledge_base(scratch.file("shown.lorekb")).size(), std::count(counts.begin(), counts.end(), most));
+    expect_done("reduce kb.lorekb --min-count " + std::to_string(most + 1) + " --out shown.lorekb");
+    EXPECT_EQ(read_knowledge_base(scratch.file("shown.lorekb")).size(), 0);
     expect_done("product kb.lorekb top.lorekb --run run --csv product.csv");
     EXPECT_EQ(lines_of("product.csv").at(0), "window,step,product,value_1,value_2");
     expect_refusal("reduce kb.lorekb --out x.lorekb", 2, "--top");

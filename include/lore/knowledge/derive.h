@@ -13,6 +13,8 @@ KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed);
 /// The `count` features of highest value (ties: the lower number), in their old order.
 KnowledgeBase keep_top(KnowledgeBase const& base, int count);
 KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value);
+/// The features that at least so many individuals have shown: their values are means of as many rewards.
+KnowledgeBase keep_shown(KnowledgeBase const& base, int least_count);
 /// The features of `base` that match, by its threshold, some feature in every one of `others` (paper, Conclusion:
 /// future work). Throws UsageError if their window lengths differ.
 KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others);
