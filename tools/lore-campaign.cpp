@@ -39,6 +39,7 @@ struct Arguments {
     int concurrent = 0;
     std::vector<std::string> cluster_options;
     bool only_write = false;
+    std::string out;             ///< of `report`
     std::string first, second;   ///< of `test`
     bool quiet = false;
 };
@@ -95,9 +96,10 @@ ExitCode submit(Arguments const& arguments) {
 }
 
 ExitCode report(Arguments const& arguments) {
-    CampaignDirectory const directory{arguments.directory};
-    write_report(read_campaign(arguments.file), directory);
-    if (!arguments.quiet) fmt::print("{}\n", directory.file("report.html"));
+    CampaignDirectory const from{arguments.directory};
+    CampaignDirectory const into{arguments.out.empty() ? arguments.directory : arguments.out};
+    write_report(read_campaign(arguments.file), from, into);
+    if (!arguments.quiet) fmt::print("{}\n", into.file("report.html"));
     return ExitCode::done;
 }
 
@@ -189,6 +191,8 @@ int run(int argc, char** argv) {
     submit_command->add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
 
     CLI::App* const report_command = on_campaign("report", "tables, figures and report.html from what is there by now");
+    report_command->add_option("--out", arguments.out, "write them here, not beside the runs (default: --dir)")
+        ->type_name("DIR");
 
     CLI::App* const status_command =
         on_campaign("status", "done / running / interrupted / failed / missing, with the reason");

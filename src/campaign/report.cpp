@@ -32,11 +32,20 @@ void check_names(CampaignPlan const& plan, Results const& results) {
 
 } // namespace
 
-void write_report(CampaignPlan const& plan, CampaignDirectory const& directory) {
-    if (std::filesystem::exists(directory.file("runs"))) write_results(directory, collect_results(plan, directory));
-    if (!std::filesystem::exists(directory.file("final.csv")))
-        throw Error(fmt::format("there is nothing to report in {}", directory.path()), "neither runs nor a final.csv",
+void write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& directory) {
+    bool const has_runs = std::filesystem::exists(from.file("runs"));
+    if (!has_runs && from.path() != directory.path())
+        throw Error(fmt::format("there is nothing to report in {}", from.path()), "no runs",
+                    "Check --dir; a report from tables alone is made beside them, without --out.");
+    if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
+        throw Error(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
                     "Start with 'lore-campaign run', or check --dir.");
+    std::error_code failed;
+    std::filesystem::create_directories(directory.file("figures"), failed);
+    if (failed)
+        throw Error(fmt::format("cannot make the directory {}", directory.file("figures")), failed.message(),
+                    "Choose another with --out.");
+    if (has_runs) write_results(directory, collect_results(plan, from));
     Results const results = read_results(directory);
     check_names(plan, results);
     auto const comparisons = compare_treatments(plan, results);
@@ -48,7 +57,6 @@ void write_report(CampaignPlan const& plan, CampaignDirectory const& directory) 
     figures["figure4"] = draw_boxplots(plan, results, comparisons);
     for (std::string const figure : {"figure5", "figure6"})
         if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
-    std::filesystem::create_directories(directory.file("figures"));
     for (auto const& [name, svg] : figures) {
         write_file_atomically(directory.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
         write_file_atomically(directory.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});

@@ -50,20 +50,26 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     EXPECT_EQ(small.report_order, paper.report_order);
     CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/ties.toml");
     EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90);
-    // Works in the directory of the paper's campaign: what they share has the same name and the same meaning.
-    CampaignPlan const beyond = read_campaign(LORE_SOURCE_DIR "/jobs/beyond.toml");
+    // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
     CampaignDirectory const directory{"paper"};
-    for (Step const& step : steps_of(beyond))
-        for (Step const& same : steps_of(paper))
-            if (step.name == same.name) {
-                EXPECT_EQ(command_of(beyond, directory, {}, step, nullptr),
-                          command_of(paper, directory, {}, same, nullptr));
-            }
+    for (char const* name : {"beyond", "saturation"}) {
+        CampaignPlan const sharing = read_campaign(std::string{LORE_SOURCE_DIR "/jobs/"} + name + ".toml");
+        int shared = 0;
+        for (Step const& step : steps_of(sharing))
+            for (Step const& same : steps_of(paper))
+                if (step.name == same.name) {
+                    ++shared;
+                    EXPECT_EQ(command_of(sharing, directory, {}, step, nullptr),
+                              command_of(paper, directory, {}, same, nullptr));
+                }
+        EXPECT_GT(shared, 30 + 1 + 2) << name;
+    }
 }
 
 TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
-    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, least_count, consensus is missing"), std::string::npos);
+    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, least_count, consensus is missing"),
+              std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
     EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls' or 'run'"),
@@ -116,7 +122,8 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     EXPECT_EQ(shell_text(command_of(narrow, CampaignDirectory{"c"}, Launcher{},
                                     steps_named(steps_of(narrow), {"knowledge/narrow"}).front(), &choice)),
               "lore-kb build c/runs/source/003 --threshold 1.5 --out c/knowledge/narrow.lorekb");
-    write("shown.toml", std::string{test::small_campaign}.replace(test::small_campaign.find("top = 10"), 8, "least_count = 5"));
+    write("shown.toml",
+          std::string{test::small_campaign}.replace(test::small_campaign.find("top = 10"), 8, "least_count = 5"));
     CampaignPlan const shown = read_campaign(scratch.file("shown.toml"));
     EXPECT_EQ(shell_text(command_of(shown, CampaignDirectory{"c"}, Launcher{},
                                     steps_named(steps_of(shown), {"knowledge/kb1_top"}).front(), &choice)),

@@ -61,12 +61,23 @@ TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone)
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::filesystem::create_directories(scratch.file("kept"));
-    for (char const* name : {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "replay.csv", "values.csv"})
+    for (char const* name :
+         {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "replay.csv", "values.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
     for (char const* name :
          {"report.html", "pvalues.csv", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
         EXPECT_EQ(made(name), made(name, "kept")) << name;
+}
+
+TEST_F(Report, can_be_written_elsewhere_so_that_campaigns_can_share_their_runs) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory(), directory("elsewhere"));
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/final.csv")));
+    write_report(plan(), directory());
+    for (char const* name : {"report.html", "final.csv", "kbs.csv", "figures/figure3.svg"})
+        EXPECT_EQ(made(name), made(name, "elsewhere")) << name;
+    EXPECT_THROW(write_report(plan(), directory("elsewhere"), directory("third")), Error) << "tables without runs";
 }
 
 TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {
