@@ -20,7 +20,7 @@ namespace lore {
 
 namespace {
 
-constexpr std::string_view ink = "#222222", pale = "#dddddd", source_color = "#777777";
+constexpr std::string_view ink = "#222222", pale = "#dddddd", source_color = "#777777", lead_color = "#999999";
 
 /// The plotting area and its scales; both axes start at 0.
 struct Frame {
@@ -55,6 +55,10 @@ struct Curve {
     std::vector<CurveRow const*> rows;
     double end() const { return rows.back()->generation; }
 };
+
+Paint line_of(Curve const& curve) {
+    return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""};
+}
 
 /// Moves labels apart, keeping their order, as little as two sweeps can.
 std::vector<double> spread(std::vector<double> const& wished, double gap, double top, double bottom) {
@@ -169,7 +173,7 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     }
     frame.y_most = std::ceil(frame.y_most);
 
-    SvgDocument svg{840, 476, "Mean number of collected balls of the best-of-run by generation"};
+    SvgDocument svg{856, 476, "Mean number of collected balls of the best-of-run by generation"};
     draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
         svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
@@ -188,16 +192,17 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     for (Curve const& curve : curves) {
         std::vector<SvgPoint> line;
         for (CurveRow const* row : curve.rows) line.push_back({frame.x(row->generation), frame.y(row->mean)});
-        svg.polyline(line, {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""});
+        svg.polyline(line, line_of(curve));
         ends.push_back(line.back().y);
     }
-    // The lines are named where they end; a thin one leads to a name that had to move.
+    // The lines are named at the right, with a piece of the line before the name; dots lead from where a line ends to
+    // its name, and must not look like data where runs of fewer generations end early.
     std::vector<double> const placed = spread(ends, 16, frame.top + 4, frame.bottom);
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        std::array<SvgPoint, 3> const lead{
-            {{frame.x(curves[i].end()) + 2, ends[i]}, {frame.right + 14, placed[i]}, {frame.right + 20, placed[i]}}};
-        svg.polyline(lead, {.stroke = curves[i].color, .width = 0.8});
-        svg.text({frame.right + 24, placed[i] + 4}, curves[i].label);
+        SvgPoint const end{frame.x(curves[i].end()) + 2, ends[i]}, key{frame.right + 16, placed[i]};
+        svg.line(end, key, {.stroke = lead_color, .width = 0.8, .dashes = "1 3"});
+        svg.line(key, {key.x + 18, key.y}, line_of(curves[i]));
+        svg.text({key.x + 24, key.y + 4}, curves[i].label);
     }
     if (curves.empty())
         svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
