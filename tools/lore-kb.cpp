@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace {
 
@@ -46,10 +47,8 @@ struct Arguments {
     bool all = false, json = false;
     int every = 1;                       ///< of all
     std::uint64_t seed = 0;
-    int top = 0;
-    double least_value = 0;
-    int least_count = 0;
-    bool top_given = false, least_value_given = false, least_count_given = false;
+    std::optional<int> top, least_count; ///< of reduce
+    std::optional<double> least_value;
 };
 
 std::string made_by(Arguments const& arguments) {
@@ -216,18 +215,18 @@ void randomize(Arguments const& arguments) {
 }
 
 void reduce(Arguments const& arguments) {
-    int const rules = arguments.top_given + arguments.least_value_given + arguments.least_count_given +
-                      !arguments.consensus.empty();
+    int const rules = arguments.top.has_value() + arguments.least_value.has_value() +
+                      arguments.least_count.has_value() + !arguments.consensus.empty();
     if (rules != 1)
         throw UsageError("cannot reduce", "one rule is needed",
                          "Give one of --top, --min-value, --min-count and --consensus.");
     check_writable(arguments.out);
     KnowledgeBase const base = read_knowledge_base(arguments.input);
-    if (arguments.top_given) return write_derived(arguments, keep_top(base, arguments.top), {arguments.input});
-    if (arguments.least_value_given)
-        return write_derived(arguments, keep_valued(base, arguments.least_value), {arguments.input});
-    if (arguments.least_count_given)
-        return write_derived(arguments, keep_shown(base, arguments.least_count), {arguments.input});
+    if (arguments.top) return write_derived(arguments, keep_top(base, *arguments.top), {arguments.input});
+    if (arguments.least_value)
+        return write_derived(arguments, keep_valued(base, *arguments.least_value), {arguments.input});
+    if (arguments.least_count)
+        return write_derived(arguments, keep_shown(base, *arguments.least_count), {arguments.input});
     std::vector<KnowledgeBase> others;
     std::vector<std::string> sources{arguments.input};
     for (std::string const& path : arguments.consensus) {
@@ -337,13 +336,10 @@ int run(int argc, char** argv) {
 
     CLI::App* const reducing = command("reduce", "Keep some of the features", reduce);
     add_base(reducing);
-    auto* const top_option =
-        reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::NonNegativeNumber);
-    auto* const least_value_option =
-        reducing->add_option("--min-value", arguments.least_value, "those of at least this value");
-    auto* const least_count_option =
-        reducing->add_option("--min-count", arguments.least_count, "those that at least so many individuals have shown")
-            ->check(CLI::NonNegativeNumber);
+    reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::NonNegativeNumber);
+    reducing->add_option("--min-value", arguments.least_value, "those of at least this value");
+    reducing->add_option("--min-count", arguments.least_count, "those that at least so many individuals have shown")
+        ->check(CLI::NonNegativeNumber);
     reducing->add_option("--consensus", arguments.consensus, "those that every one of these knowledge bases knows")
         ->expected(1, 1000);
     add_out(reducing);
@@ -362,9 +358,6 @@ int run(int argc, char** argv) {
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
     arguments.window_length_given = length_option->count() > 0;
     arguments.threshold_given = threshold_option->count() > 0;
-    arguments.top_given = top_option->count() > 0;
-    arguments.least_value_given = least_value_option->count() > 0;
-    arguments.least_count_given = least_count_option->count() > 0;
     chosen(arguments);
     return static_cast<int>(ExitCode::done);
 }

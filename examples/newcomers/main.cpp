@@ -9,9 +9,9 @@
 #include <lore/experiment/config.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +24,14 @@ auto newcomers(lore::GenerationReport const& report) {
     return std::count_if(members.begin(), members.end(), [&](lore::Individual const& member) {
         return member.id().generation == static_cast<std::uint32_t>(report.generation);
     });
+}
+
+std::uint64_t seed_of(std::string const& text) {
+    std::uint64_t seed = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error != std::errc{} || end != text.data() + text.size())
+        throw lore::UsageError("cannot take the seed " + text, "it is no whole number", "Give one, such as 1.");
+    return seed;
 }
 
 void evolve(std::string const& config_path, std::uint64_t seed, std::string const& knowledge,
@@ -59,7 +67,7 @@ int main(int argc, char** argv) {
         settings.erase(settings.begin(), settings.begin() + 2);
     }
     try {
-        evolve(argv[1], std::strtoull(argv[2], nullptr, 10), knowledge, settings);
+        evolve(argv[1], seed_of(argv[2]), knowledge, settings);
     } catch (lore::Error const& error) {
         std::fprintf(stderr, "newcomers: %s\n", error.what());
         return static_cast<int>(error.exit_code());

@@ -91,15 +91,12 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
     else plan.options = table.strings("options").value_or(std::vector<std::string>{});
     if (plan.kind == KnowledgeKind::reduced) {
         std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
-        if (how == "top")
-            plan.options.insert(plan.options.begin(),
-                                {"--top", fmt::format("{}", *table.integer("top", 1, 100'000'000))});
-        if (how == "least_value")
-            plan.options.insert(plan.options.begin(),
-                                {"--min-value", fmt::format("{}", *table.number("least_value", -1, 1e6))});
-        if (how == "least_count")
-            plan.options.insert(plan.options.begin(),
-                                {"--min-count", fmt::format("{}", *table.integer("least_count", 1, 100'000'000))});
+        auto const reduce_by = [&](std::string_view option, auto bound) {
+            plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", bound)});
+        };
+        if (how == "top") reduce_by("--top", *table.integer(how, 1, 100'000'000));
+        if (how == "least_value") reduce_by("--min-value", *table.number(how, -1, 1e6));
+        if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
         if (how == "consensus") plan.consensus = *table.strings("consensus");
     }
     table.reject_unknown();

@@ -32,25 +32,22 @@ void check_names(CampaignPlan const& plan, Results const& results) {
 
 } // namespace
 
-void write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& directory) {
+void write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     bool const has_runs = std::filesystem::exists(from.file("runs"));
-    if (!has_runs && from.path() != directory.path())
-        throw Error(fmt::format("there is nothing to report in {}", from.path()), "no runs",
-                    "Check --dir; a report from tables alone is made beside them, without --out.");
     if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
         throw Error(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
                     "Start with 'lore-campaign run', or check --dir.");
     std::error_code failed;
-    std::filesystem::create_directories(directory.file("figures"), failed);
+    std::filesystem::create_directories(into.file("figures"), failed);
     if (failed)
-        throw Error(fmt::format("cannot make the directory {}", directory.file("figures")), failed.message(),
+        throw Error(fmt::format("cannot make the directory {}", into.file("figures")), failed.message(),
                     "Choose another with --out.");
-    if (has_runs) write_results(directory, collect_results(plan, from));
-    Results const results = read_results(directory);
+    if (has_runs) write_results(into, collect_results(plan, from));
+    Results const results = read_results(has_runs ? into : from);
     check_names(plan, results);
     auto const comparisons = compare_treatments(plan, results);
-    write_file_atomically(directory.file("pvalues.csv"), std::string_view{comparisons_csv(comparisons)});
-    write_file_atomically(directory.file("summary.json"), std::string_view{summary_json(plan, results, comparisons)});
+    write_file_atomically(into.file("pvalues.csv"), std::string_view{comparisons_csv(comparisons)});
+    write_file_atomically(into.file("summary.json"), std::string_view{summary_json(plan, results, comparisons)});
 
     std::map<std::string, std::string> figures;
     figures["figure3"] = draw_curves(plan, results);
@@ -58,10 +55,10 @@ void write_report(CampaignPlan const& plan, CampaignDirectory const& from, Campa
     for (std::string const figure : {"figure5", "figure6"})
         if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
     for (auto const& [name, svg] : figures) {
-        write_file_atomically(directory.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
-        write_file_atomically(directory.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
+        write_file_atomically(into.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
+        write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
     }
-    write_file_atomically(directory.file("report.html"),
+    write_file_atomically(into.file("report.html"),
                           std::string_view{report_page(plan, results, comparisons, figures)});
 }
 

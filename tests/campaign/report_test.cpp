@@ -77,7 +77,26 @@ TEST_F(Report, can_be_written_elsewhere_so_that_campaigns_can_share_their_runs) 
     write_report(plan(), directory());
     for (char const* name : {"report.html", "final.csv", "kbs.csv", "figures/figure3.svg"})
         EXPECT_EQ(made(name), made(name, "elsewhere")) << name;
-    EXPECT_THROW(write_report(plan(), directory("elsewhere"), directory("third")), Error) << "tables without runs";
+    write_report(plan(), directory("elsewhere"), directory("third"));
+    EXPECT_EQ(made("report.html"), made("report.html", "third")) << "from tables without runs";
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("third/final.csv")));
+    write("file", "");
+    EXPECT_THROW(write_report(plan(), directory(), directory("file")), Error) << "where no directory can be made";
+}
+
+TEST_F(Report, of_the_published_tables_is_what_docs_reproduction_shows) {
+    for (std::string const name : {"paper", "ties", "beyond", "saturation"}) {
+        std::filesystem::path const kept = std::filesystem::path{LORE_SOURCE_DIR "/docs/results"} / name;
+        write_report(read_campaign(LORE_SOURCE_DIR "/jobs/" + name + ".toml"), CampaignDirectory{kept},
+                     directory(name));
+        EXPECT_FALSE(made("report.html", name).empty());
+        for (auto const& entry : std::filesystem::directory_iterator{kept}) {
+            std::string const file = entry.path().filename();
+            bool const figure = file.ends_with(".svg");
+            if (!figure && file != "pvalues.csv" && file != "summary.json") continue;
+            EXPECT_EQ(made(figure ? "figures/" + file : file, name), read(entry.path())) << name << '/' << file;
+        }
+    }
 }
 
 TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {

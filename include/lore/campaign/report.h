@@ -12,9 +12,9 @@ namespace lore {
 /// would overwrite each other's): the CSV files, pvalues.csv, summary.json, figures/ and report.html.
 ///
 /// Where the campaign's directory `from` has runs, the CSV files are made from them first; where it has none (results
-/// kept without their runs), they are taken as they are, and must be in `into`. All else is a function of the
-/// campaign's file and the CSV files: it holds no time, host or path, so the same results give the same bytes. Works
-/// over unfinished campaigns. Throws Error.
+/// kept without their runs), its CSV files are read as they are. All else is a function of the campaign's file and the
+/// CSV files: it holds no time, host or path, so the same results give the same bytes. Works over unfinished campaigns.
+/// Throws Error.
 void write_report(CampaignPlan const&, CampaignDirectory const& from, CampaignDirectory const& into);
 inline void write_report(CampaignPlan const& plan, CampaignDirectory const& directory) {
     write_report(plan, directory, directory);
