@@ -120,7 +120,8 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
 
 std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
     HtmlTable table{
-        "pairs", {{"a", true}, {"b", true}, {"n a"}, {"n b"}, {"U"}, {"p"}, {"p (Holm)"}, {"A12"}, {"95 %"}, {"method", true}}};
+        "pairs",
+        {{"a", true}, {"b", true}, {"n a"}, {"n b"}, {"U"}, {"p"}, {"p (Holm)"}, {"A12"}, {"95 %"}, {"method", true}}};
     for (Comparison const& c : comparisons)
         table.row(
             {plan.treatment(c.a).label, plan.treatment(c.b).label, std::to_string(c.n_a), std::to_string(c.n_b),
@@ -324,8 +325,8 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     page += figure(figures, "figure3",
                    "<b>Figure 3.</b> Number of collected balls of the best-of-run individual along generations, "
                    "averaged over the runs of "
-                   "each treatment. Bands: 95 % percentile bootstrap of the mean. The dashed line is the source task, "
-                   "where other balls count.");
+                   "each treatment. Bands: 95 % percentile bootstrap of the mean. The grey dashed line is the source "
+                   "task, where other balls count.");
     page += figure(figures, "figure4",
                    "<b>Figure 4.</b> Collected balls of the best-of-run at the last generation; every point is a run. "
                    "Boxes: quartiles and "
@@ -343,10 +344,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                 pairs_table(plan, comparisons);
     }
     if (!results.bases.empty())
-        page += "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
-                "<p class=\"note\">Run, seed and balls: of the source run and its best-of-run. Individuals: whose windows "
-                "were read, the length of the lineage where it is one. Features: all, those at the top of the values, and "
-                "those that one individual alone has shown.</p>\n";
+        page +=
+            "<h2 id=\"bases\">Knowledge bases</h2>\n" + bases_table(plan, results) +
+            "<p class=\"note\">Run, seed and balls: of the source run and its best-of-run. Individuals: whose windows "
+            "were read, the length of the lineage where it is one. Features: all, those at the top of the values, and "
+            "those that one individual alone has shown.</p>\n";
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().step);
     page += figure(
         figures, "figure5",
@@ -360,10 +362,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                    "of them).");
     page += replay_section(plan, results);
     if (!results.populations.empty())
-        page += "<h2 id=\"population\">Populations</h2>\n" + populations_table(plan, results) +
-                "<p class=\"note\">Means over the runs: balls of the survivors; fronts of parents and children together; "
-                "survivors that share all objectives with another; the best value of the shaping objective, and the "
-                "share of the survivors that have it; connections and hidden neurons of their networks.</p>\n";
+        page +=
+            "<h2 id=\"population\">Populations</h2>\n" + populations_table(plan, results) +
+            "<p class=\"note\">Means over the runs: balls of the survivors; fronts of parents and children together; "
+            "survivors that share all objectives with another; the best value of the shaping objective, and the "
+            "share of the survivors that have it; connections and hidden neurons of their networks.</p>\n";
     page += "<h2 id=\"all-runs\">All runs</h2>\n" + runs_table(plan, results);
 
     std::set<std::string> versions;

@@ -18,6 +18,7 @@ constexpr int steps_between_robots = 50;
 
 // Layout [pixels].
 constexpr double plan_width = 780, left_margin = 66, top_margin = 46, right_margin = 106;
+constexpr double bend = 0.3;   // that nobody sees
 constexpr double axis_room = 48, strip_height = 130, bottom_margin = 52, legend_height = 26;
 
 constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", grey = "#8c8c8c",
@@ -138,14 +139,33 @@ private:
                   {.stroke = "#555555", .width = 1.2});
     }
 
+    /// The way from one step to another, both included, in as few points as the eye needs: from each point straight on
+    /// to the farthest that leaves no step between them beside the line. The document is half as large for it.
+    std::vector<SvgPoint> path(std::size_t from, std::size_t to) const {
+        auto const at = [&](std::size_t step) { return place(picture_.poses[step].x, picture_.poses[step].y); };
+        std::vector<SvgPoint> points{at(from)};
+        while (from < to) {
+            std::size_t next = from + 1;
+            while (next < to && straight(from, next + 1)) ++next;
+            points.push_back(at(from = next));
+        }
+        return points;
+    }
+    bool straight(std::size_t from, std::size_t to) const {
+        Pose const &a = picture_.poses[from], &b = picture_.poses[to];
+        double const dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+        for (std::size_t step = from + 1; step < to; ++step) {
+            double const x = picture_.poses[step].x - a.x, y = picture_.poses[step].y - a.y;
+            double const along = length2 > 0 ? std::clamp((x * dx + y * dy) / length2, 0.0, 1.0) : 0;
+            if (scale_ * std::hypot(x - along * dx, y - along * dy) > bend) return false;
+        }
+        return true;
+    }
     void paint_trajectory() {
         auto const length = static_cast<std::size_t>(picture_.window_length);
         for (std::size_t from = 0; from + 1 < picture_.poses.size(); from += length) {
             // One pose of the next window too, so that the line has no gaps.
-            std::size_t const to = std::min(from + length + 1, picture_.poses.size());
-            std::vector<SvgPoint> points;
-            for (std::size_t step = from; step < to; ++step)
-                points.push_back(place(picture_.poses[step].x, picture_.poses[step].y));
+            std::vector<SvgPoint> const points = path(from, std::min(from + length, picture_.poses.size() - 1));
             std::size_t const window = from / length;
             if (picture_.values.empty()) {
                 svg_.polyline(points, {.stroke = blue(0.8), .width = 1.4});

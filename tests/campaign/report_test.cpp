@@ -84,17 +84,21 @@ TEST_F(Report, can_be_written_elsewhere_so_that_campaigns_can_share_their_runs) 
     EXPECT_THROW(write_report(plan(), directory(), directory("file")), Error) << "where no directory can be made";
 }
 
-TEST_F(Report, of_the_published_tables_is_what_docs_reproduction_shows) {
+TEST_F(Report, of_the_published_tables_is_the_published_one) {
+    auto const without_origin = [](std::string page) {   // the line that names the program that made it
+        std::size_t const line = page.find("<p>Runs: Lore");
+        return line == std::string::npos ? page : page.erase(line, page.find('\n', line) - line);
+    };
     for (std::string const name : {"paper", "ties", "beyond", "saturation"}) {
         std::filesystem::path const kept = std::filesystem::path{LORE_SOURCE_DIR "/docs/results"} / name;
         write_report(read_campaign(LORE_SOURCE_DIR "/jobs/" + name + ".toml"), CampaignDirectory{kept},
                      directory(name));
-        EXPECT_FALSE(made("report.html", name).empty());
+        for (char const* file : {"report.html", "pvalues.csv", "summary.json"})
+            EXPECT_EQ(without_origin(made(file, name)), without_origin(read(kept / file))) << name << '/' << file;
         for (auto const& entry : std::filesystem::directory_iterator{kept}) {
             std::string const file = entry.path().filename();
-            bool const figure = file.ends_with(".svg");
-            if (!figure && file != "pvalues.csv" && file != "summary.json") continue;
-            EXPECT_EQ(made(figure ? "figures/" + file : file, name), read(entry.path())) << name << '/' << file;
+            if (file.ends_with(".svg"))
+                EXPECT_EQ(made("figures/" + file, name), read(entry.path())) << name << '/' << file;
         }
     }
 }

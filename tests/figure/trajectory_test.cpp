@@ -71,6 +71,15 @@ TEST(DrawTrajectory, shows_a_robot_that_stands_once) {
     EXPECT_EQ(count(draw_trajectory(arena, journey.picture), red_disc), 1 + 1);
 }
 
+TEST(DrawTrajectory, draws_a_straight_window_with_two_points_and_a_bent_one_with_its_corners) {
+    Journey journey;
+    for (std::size_t step = 15; step < 20; ++step) journey.poses[step].y += 2 * static_cast<float>(step - 14);
+    std::string const svg = draw_trajectory(load_arena("collectball", "source"), journey.picture);
+    int const outline_and_colour = 2;
+    EXPECT_EQ(count(svg, "points=\"365,176 383.2,176 389.7,189 391,176\""), outline_and_colour);
+    EXPECT_EQ(count(svg, "points=\"391,176 417,176\""), outline_and_colour);
+}
+
 TEST(DrawTrajectory, has_neither_strip_nor_colour_bar_without_values) {
     Journey journey;
     journey.picture.values.clear();
