@@ -86,17 +86,28 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
                                          : KnowledgeKind::reduced;
         plan.base = table.required_string(key);
     }
+    bool const built = plan.kind != KnowledgeKind::random && plan.kind != KnowledgeKind::reduced;
     if (plan.kind == KnowledgeKind::random)
         plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
     else plan.options = table.strings("options").value_or(std::vector<std::string>{});
+    auto const add_option = [&](std::string_view option, auto value) {
+        plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", value)});
+    };
+    if (built) {
+        for (std::string const& option : plan.options)
+            if (option.starts_with("--window-length") || option.starts_with("--threshold"))
+                table.fail("options", fmt::format("'{}' is for the runs that use the base too", option),
+                           "Write window_length = or match_threshold = instead.");
+        plan.match_threshold = table.number("match_threshold", 0, 1000);
+        if (auto const steps = table.integer("window_length", 1, 32767)) plan.window_length = static_cast<int>(*steps);
+        if (plan.match_threshold) add_option("--threshold", *plan.match_threshold);
+        if (plan.window_length) add_option("--window-length", *plan.window_length);
+    }
     if (plan.kind == KnowledgeKind::reduced) {
         std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
-        auto const reduce_by = [&](std::string_view option, auto bound) {
-            plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", bound)});
-        };
-        if (how == "top") reduce_by("--top", *table.integer(how, 1, 100'000'000));
-        if (how == "least_value") reduce_by("--min-value", *table.number(how, -1, 1e6));
-        if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
+        if (how == "top") add_option("--top", *table.integer(how, 1, 100'000'000));
+        if (how == "least_value") add_option("--min-value", *table.number(how, -1, 1e6));
+        if (how == "least_count") add_option("--min-count", *table.integer(how, 1, 100'000'000));
         if (how == "consensus") plan.consensus = *table.strings("consensus");
     }
     table.reject_unknown();
@@ -110,6 +121,31 @@ void check_name(TomlTable const& document, std::string_view key, std::string con
     std::string const meant = nearest_word(wanted, words.data(), words.size());
     document.fail(key, fmt::format("there is no '{}' before it", wanted),
                   meant.empty() ? "Define it first." : fmt::format("Did you mean '{}'?", meant));
+}
+
+/// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
+KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge, KnowledgeConfig config) {
+    if (knowledge.kind == KnowledgeKind::random || knowledge.kind == KnowledgeKind::reduced)
+        return windows_of(plan, plan.knowledge_base(knowledge.base), config);
+    config.window_length = knowledge.window_length.value_or(config.window_length);
+    if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);
+    return config;
+}
+
+/// Has a treatment's runs read the windows of its base, unless its configuration does so already.
+void fit_windows(TomlTable const& table, std::string const& config_path, Treatment& treatment,
+                 KnowledgeConfig const& base) {
+    if (read_config(config_path, {}).knowledge != base)
+        treatment.overrides.insert(treatment.overrides.begin(),
+                                   {fmt::format("knowledge.window_length={}", base.window_length),
+                                    fmt::format("knowledge.match_threshold={}", base.match_threshold)});
+    KnowledgeConfig const read = read_config(config_path, treatment.overrides).knowledge;
+    if (read != base)
+        table.fail("set",
+                   fmt::format("it asks for windows of {} steps and threshold {}, and '{}' has {} and {}",
+                               read.window_length, read.match_threshold, treatment.knowledge, base.window_length,
+                               base.match_threshold),
+                   "Leave them out: a treatment takes those of its base.");
 }
 
 } // namespace
@@ -146,6 +182,7 @@ CampaignPlan read_campaign(std::string const& path) {
 
     plan.source = read_treatment(document.required_table("source"), defaults, "source");
     if (!plan.source.knowledge.empty()) document.fail("source", "the source treatment cannot use a knowledge base");
+    KnowledgeConfig const source_windows = read_config(plan.config_path(plan.source), plan.source.overrides).knowledge;
 
     std::vector<std::string> bases;
     for (TomlTable const& table : document.tables("knowledge")) {
@@ -175,7 +212,14 @@ CampaignPlan read_campaign(std::string const& path) {
         Treatment treatment = read_treatment(table, defaults, "");
         if (treatment.name == plan.source.name || std::find(names.begin(), names.end(), treatment.name) != names.end())
             table.fail("name", fmt::format("'{}' is defined twice", treatment.name), "Rename one.");
-        if (!treatment.knowledge.empty()) check_name(table, "knowledge", treatment.knowledge, bases);
+        std::string const config_path = plan.config_path(treatment);
+        if (treatment.knowledge.empty()) {
+            read_config(config_path, treatment.overrides);
+        } else {
+            check_name(table, "knowledge", treatment.knowledge, bases);
+            fit_windows(table, config_path, treatment,
+                        windows_of(plan, plan.knowledge_base(treatment.knowledge), source_windows));
+        }
         names.push_back(treatment.name);
         plan.targets.push_back(std::move(treatment));
     }
@@ -211,9 +255,6 @@ CampaignPlan read_campaign(std::string const& path) {
         cluster->reject_unknown();
     }
     document.reject_unknown();
-
-    read_config(plan.config_path(plan.source), plan.source.overrides);
-    for (Treatment const& target : plan.targets) read_config(plan.config_path(target), target.overrides);
     return plan;
 }
 

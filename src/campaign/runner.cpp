@@ -277,14 +277,17 @@ private:
         std::string how = text(end);
         if (end.signal == 0 && end.exit_code == 0) how = state_of(plan_, directory_, task.step, Locks::ignored).reason;
         if (how.empty()) how = "it ended without its result";
-        if (task.attempts < most_attempts) {
+        // A command line or configuration that is refused will be refused again.
+        bool const refused = end.signal == 0 && end.exit_code == static_cast<int>(ExitCode::usage);
+        if (task.attempts < most_attempts && !refused) {
             board_.announce(fmt::format("{} failed ({}), trying once more", task.step.name, how));
             return;
         }
         task.phase = Phase::failed;
         write_failure(directory_, task.step, {task.attempts, how, log});
         board_.complain(
-            fmt::format("{} failed twice ({}); {} ends with:", task.step.name, how, directory_.log(task.step.name)));
+            fmt::format("{} failed{} ({}); {} ends with:", task.step.name, task.attempts > 1 ? " twice" : "", how,
+                        directory_.log(task.step.name)));
         for (std::string const& line : log) board_.complain("    " + line);
     }
 

@@ -30,6 +30,11 @@ namespace fs = std::filesystem;
 
 std::string in(std::string const& directory, std::string_view name) { return (fs::path{directory} / name).string(); }
 
+std::string text(FailureRecord const& failure) {
+    return fmt::format("{} after {} attempt{}{}{}", failure.how, failure.attempts, failure.attempts == 1 ? "" : "s",
+                       failure.log_tail.empty() ? "" : ": ", failure.log_tail.empty() ? "" : failure.log_tail.back());
+}
+
 /// Settings of a finished run that differ from the plan and change its results.
 std::vector<std::string> other_settings(CampaignPlan const& plan, Treatment const& treatment, std::string const& run) {
     ExperimentConfig planned = read_config(plan.config_path(treatment), treatment.overrides);
@@ -82,9 +87,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     }
     if (taken) return say(StepStatus::running, where);
     if (auto const failure = read_failure(directory, step))
-        return say(StepStatus::failed, fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts,
-                                                   failure->log_tail.empty() ? "" : ": ",
-                                                   failure->log_tail.empty() ? "" : failure->log_tail.back()));
+        return say(StepStatus::failed, text(*failure));
     if (manifest) return say(StepStatus::interrupted, where);
     return say(StepStatus::missing, "");
 }
@@ -145,9 +148,7 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         state.status = StepStatus::running;
     } else if (auto const failure = read_failure(directory, step)) {
         state.status = StepStatus::failed;
-        state.reason = fmt::format("{} after {} attempts{}{}", failure->how, failure->attempts,
-                                   failure->log_tail.empty() ? "" : ": ",
-                                   failure->log_tail.empty() ? "" : failure->log_tail.back());
+        state.reason = text(*failure);
     }
     return state;
 }

@@ -1,8 +1,9 @@
 // Stands in for lore-evolve in the campaign's tests: takes its arguments, writes its files, makes up the numbers.
 //
 // Environment: LORE_FAKE_MS  milliseconds a generation (default 0)
-//              LORE_FAKE_FAIL  "NAME:SEED:TIMES,..." the run of this treatment and seed fails so many times (NAME *
-//              any) LORE_FAKE_COUNT  directory in which every start leaves a file
+//              LORE_FAKE_FAIL  "NAME:SEED:TIMES[:CODE],..." the run of this treatment (* any) and seed fails so often,
+//                              with this exit code (default 1)
+//              LORE_FAKE_COUNT  directory in which every start leaves a file
 
 #include <lore/core/error.h>
 #include <lore/core/random.h>
@@ -34,24 +35,25 @@ std::string from_environment(char const* name) {
     return value == nullptr ? "" : value;
 }
 
-/// Whether this start is one that shall fail; counts the starts in a file beside the run.
-bool shall_fail(std::string const& treatment, std::string const& seed, std::string const& out) {
+/// The exit code with which this start shall fail, or 0; counts the starts in a file beside the run.
+int failure_wanted(std::string const& treatment, std::string const& seed, std::string const& out) {
     std::istringstream rules{from_environment("LORE_FAKE_FAIL")};
     for (std::string rule; std::getline(rules, rule, ',');) {
         std::istringstream fields{rule};
-        std::string name, of_seed, times;
+        std::string name, of_seed, times, code;
         std::getline(fields, name, ':');
         std::getline(fields, of_seed, ':');
         std::getline(fields, times, ':');
+        std::getline(fields, code, ':');
         if ((name != "*" && name != treatment) || of_seed != seed) continue;
         fs::create_directories(out);
         int failed = 0;
         { std::ifstream former{out + "/failed-so-often"}; former >> failed; }
-        if (failed >= std::stoi(times)) return false;
+        if (failed >= std::stoi(times)) return 0;
         std::ofstream{out + "/failed-so-often"} << failed + 1;
-        return true;
+        return code.empty() ? 1 : std::stoi(code);
     }
-    return false;
+    return 0;
 }
 
 } // namespace
@@ -76,9 +78,9 @@ int main(int argc, char** argv) {
     std::string const treatment = fs::path{out}.parent_path().filename().string();
     if (auto const count = from_environment("LORE_FAKE_COUNT"); !count.empty())
         std::ofstream{count + "/" + treatment + "-" + seed + "-" + std::to_string(::getpid())} << "started\n";
-    if (shall_fail(treatment, seed, out)) {
+    if (int const code = failure_wanted(treatment, seed, out); code != 0) {
         std::fprintf(stderr, "lore-evolve: the fake fails (it was told to). Nothing helps.\n");
-        return 1;
+        return code;
     }
     if (!kb.empty() && !fs::exists(kb)) {
         std::fprintf(stderr, "lore-evolve: cannot read %s (no such file). Check the path.\n", kb.c_str());

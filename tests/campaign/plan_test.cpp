@@ -85,6 +85,33 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("runs = 4", "set = [\"evolution.popultion=3\"]").find("population"), std::string::npos);
 }
 
+TEST_F(Campaign, has_runs_read_the_windows_of_their_base) {
+    using Settings = std::vector<std::string>;
+    Settings const generations{"evolution.generations=20"},
+        fitted{"knowledge.window_length=10", "knowledge.match_threshold=1.294", "evolution.generations=20"};
+    auto const settings = [&](std::string_view treatment) { return plan().treatment(treatment).overrides; };
+    auto const complaint_with = [&](std::string const& keys, std::string const& knowledge, std::string const& set) {
+        return complaint("knowledge = \"kb1\"\n[[treatment]]",
+                         "knowledge = \"" + knowledge + "\"\n" + set +
+                             "[[knowledge]]\nname = \"short\"\nlineage_of = \"kb1\"\n" + keys + "[[treatment]]");
+    };
+    std::string const own = "window_length = 10\nmatch_threshold = 1.294\n";
+    EXPECT_EQ(complaint_with(own, "short", ""), "");
+    EXPECT_EQ(settings("kb1"), fitted);
+    EXPECT_EQ(settings("none"), generations);
+    EXPECT_EQ(settings("all"), generations) << "its base has the usual windows";
+    EXPECT_EQ(complaint_with(own + "[[knowledge]]\nname = \"drawn\"\nrandom_of = \"short\"\n", "drawn", ""), "");
+    EXPECT_EQ(settings("kb1"), fitted) << "drawn values change no windows";
+    EXPECT_EQ(complaint("runs = 4", "runs = 4\nset = [\"knowledge.match_threshold=1.5\"]"), "");
+    EXPECT_EQ(settings("kb1").at(1), "knowledge.match_threshold=1.5") << "bases are built as their source run says";
+
+    std::string const other = complaint_with(own, "short", "set = [\"knowledge.window_length=5\"]\n");
+    EXPECT_NE(other.find("windows of 5 steps and threshold 1.294, and 'short' has 10 and 1.294"), std::string::npos)
+        << other;
+    EXPECT_NE(complaint_with("options = [\"--threshold\", \"1.5\"]\n", "short", "").find("Write window_length"),
+              std::string::npos);
+}
+
 TEST_F(Campaign, orders_steps_after_those_that_they_wait_for) {
     std::vector<Step> const steps = steps_of(plan());
     for (auto step = steps.begin(); step != steps.end(); ++step)
@@ -117,7 +144,7 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     write("narrow.toml",
           std::string{test::small_campaign}.insert(
               test::small_campaign.find("[[treatment]]"),
-              "[[knowledge]]\nname = \"narrow\"\nlineage_of = \"kb1\"\noptions = [\"--threshold\", \"1.5\"]\n"));
+              "[[knowledge]]\nname = \"narrow\"\nlineage_of = \"kb1\"\nmatch_threshold = 1.5\n"));
     CampaignPlan const narrow = read_campaign(scratch.file("narrow.toml"));
     EXPECT_EQ(shell_text(command_of(narrow, CampaignDirectory{"c"}, Launcher{},
                                     steps_named(steps_of(narrow), {"knowledge/narrow"}).front(), &choice)),

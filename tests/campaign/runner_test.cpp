@@ -93,6 +93,16 @@ TEST_F(Runner, reports_a_run_that_fails_twice_and_goes_on_with_the_others) {
     EXPECT_EQ(state("kb1/002").status, StepStatus::done);
 }
 
+TEST_F(Runner, does_not_try_again_what_was_refused_as_wrongly_configured) {
+    ::setenv("LORE_FAKE_FAIL", "kb1:2:1:2", 1);   // a second attempt would succeed
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
+    std::string const said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("kb1/002 failed (exit code 2)"), std::string::npos) << said;
+    EXPECT_EQ(state("kb1/002").status, StepStatus::failed);
+    EXPECT_TRUE(state("kb1/002").reason.starts_with("exit code 2 after 1 attempt: ")) << state("kb1/002").reason;
+}
+
 TEST_F(Runner, chooses_without_source_runs_that_failed) {
     ::setenv("LORE_FAKE_FAIL", "source:1:9", 1);
     testing::internal::CaptureStderr();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,7 @@ struct Treatment {
     std::string name;                     ///< in paths, files and tables: letters, digits, '_' and '-'
     std::string label;                    ///< in figures
     std::string config;                   ///< path of its lore-evolve configuration, as the campaign's file gives it
-    std::vector<std::string> overrides;   ///< "section.key=value", the campaign's generations among them
+    std::vector<std::string> overrides;   ///< "section.key=value", those for its generations and its base among them
     std::string knowledge;                ///< name of the knowledge base for objective RS; empty: none
     int runs = 30;
     std::uint64_t first_seed = 1;
@@ -35,6 +36,8 @@ struct KnowledgePlan {
     int run = 0;                          ///< lineage: this source run, whatever its balls; 0: choose by `balls`
     std::string base;                     ///< all but lineage: the knowledge base it starts from
     std::uint64_t seed = 1;               ///< random: of the draw
+    std::optional<int> window_length;     ///< of its windows [steps]; without: the source runs'
+    std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
     std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
     std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
 };
@@ -73,7 +76,9 @@ struct CampaignPlan {
 };
 
 /// Reads jobs/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
-/// Throws UsageError: syntax, unknown key, a name used twice or not defined, a value out of range.
+/// A treatment reads windows of the length and with the threshold of its knowledge base, without having to say so.
+/// Throws UsageError: syntax, unknown key, a name used twice or not defined, a value out of range, a treatment that
+/// sets other windows than its base has.
 CampaignPlan read_campaign(std::string const& path);
 
 } // namespace lore
