@@ -154,10 +154,17 @@ std::string_view treatment_color(std::size_t i) {
 }
 
 std::string draw_curves(CampaignPlan const& plan, Results const& results) {
+    // Source runs may be longer than those on the target task, which the figure is about.
+    int last = -1;
+    for (CurveRow const& row : results.curves)
+        if (row.treatment != plan.source.name) last = std::max(last, row.generation);
+    if (last < 0) last = std::numeric_limits<int>::max();
+
     std::vector<Curve> curves;
     auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
         Curve curve{treatment.label, color, dashed, {}};
-        for (CurveRow const& row : results.curves) if (row.treatment == treatment.name) curve.rows.push_back(&row);
+        for (CurveRow const& row : results.curves)
+            if (row.treatment == treatment.name && row.generation <= last) curve.rows.push_back(&row);
         if (curve.rows.empty()) return;
         curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
         curves.push_back(std::move(curve));

@@ -83,6 +83,17 @@ TEST(Curves, draw_a_line_and_a_band_for_each_treatment_with_runs) {
     EXPECT_EQ(occurrences(svg, "none"), occurrences(svg, "fill=\"none\""));
 }
 
+TEST(Curves, end_with_the_runs_on_the_target_task_however_long_source_runs_are) {
+    Results results;
+    for (int g = 0; g <= 1000; g += 10) results.curves.push_back({"source", g, 3, 0.005 * g, 0.004 * g, 0.006 * g});
+    EXPECT_EQ(occurrences(draw_curves(two_treatments(), results), ">1000</text>"), 1);
+    for (int g = 0; g <= 100; g += 10) results.curves.push_back({"kb1", g, 3, 0.05 * g, 0.04 * g, 0.06 * g});
+    std::string const svg = draw_curves(two_treatments(), results);
+    EXPECT_EQ(occurrences(svg, ">1000</text>"), 0);
+    EXPECT_EQ(occurrences(svg, ">100</text>"), 1);
+    EXPECT_EQ(occurrences(svg, "<polygon"), 2);
+}
+
 TEST(Curves, say_so_where_there_is_nothing_to_draw) {
     EXPECT_EQ(occurrences(draw_curves(two_treatments(), Results{}), "no finished run yet"), 1);
     EXPECT_EQ(occurrences(draw_boxplots(two_treatments(), Results{}, {}), "no finished run yet"), 1);
