@@ -52,7 +52,7 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90);
     // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
     CampaignDirectory const directory{"paper"};
-    for (char const* name : {"beyond", "saturation", "windows"}) {
+    for (char const* name : {"beyond", "saturation", "windows", "faster"}) {
         CampaignPlan const sharing = read_campaign(std::string{LORE_SOURCE_DIR "/jobs/"} + name + ".toml");
         int shared = 0;
         for (Step const& step : steps_of(sharing))
