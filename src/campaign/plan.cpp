@@ -69,6 +69,9 @@ std::string_view only_key(TomlTable const& table, std::vector<std::string_view> 
     return found;
 }
 
+/// Whether Algorithm 1 makes it; the others are made of a base that is there.
+bool is_built(KnowledgeKind kind) { return kind != KnowledgeKind::random && kind != KnowledgeKind::reduced; }
+
 KnowledgePlan read_knowledge(TomlTable const& table) {
     KnowledgePlan plan;
     plan.name = table.required_string("name");
@@ -86,28 +89,25 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
                                          : KnowledgeKind::reduced;
         plan.base = table.required_string(key);
     }
-    bool const built = plan.kind != KnowledgeKind::random && plan.kind != KnowledgeKind::reduced;
     if (plan.kind == KnowledgeKind::random)
         plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
     else plan.options = table.strings("options").value_or(std::vector<std::string>{});
-    auto const add_option = [&](std::string_view option, auto value) {
-        plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", value)});
-    };
-    if (built) {
+    if (is_built(plan.kind)) {
         for (std::string const& option : plan.options)
             if (option.starts_with("--window-length") || option.starts_with("--threshold"))
                 table.fail("options", fmt::format("'{}' is for the runs that use the base too", option),
                            "Write window_length = or match_threshold = instead.");
         plan.match_threshold = table.number("match_threshold", 0, 1000);
         if (auto const steps = table.integer("window_length", 1, 32767)) plan.window_length = static_cast<int>(*steps);
-        if (plan.match_threshold) add_option("--threshold", *plan.match_threshold);
-        if (plan.window_length) add_option("--window-length", *plan.window_length);
     }
     if (plan.kind == KnowledgeKind::reduced) {
         std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
-        if (how == "top") add_option("--top", *table.integer(how, 1, 100'000'000));
-        if (how == "least_value") add_option("--min-value", *table.number(how, -1, 1e6));
-        if (how == "least_count") add_option("--min-count", *table.integer(how, 1, 100'000'000));
+        auto const reduce_by = [&](std::string_view option, auto bound) {
+            plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", bound)});
+        };
+        if (how == "top") reduce_by("--top", *table.integer(how, 1, 100'000'000));
+        if (how == "least_value") reduce_by("--min-value", *table.number(how, -1, 1e6));
+        if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
         if (how == "consensus") plan.consensus = *table.strings("consensus");
     }
     table.reject_unknown();
@@ -125,7 +125,7 @@ void check_name(TomlTable const& document, std::string_view key, std::string con
 
 /// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
 KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge, KnowledgeConfig config) {
-    if (knowledge.kind == KnowledgeKind::random || knowledge.kind == KnowledgeKind::reduced)
+    if (!is_built(knowledge.kind))
         return windows_of(plan, plan.knowledge_base(knowledge.base), config);
     config.window_length = knowledge.window_length.value_or(config.window_length);
     if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);

@@ -65,6 +65,8 @@ std::vector<std::string> build_command(CampaignPlan const& plan, CampaignDirecto
             for (std::string const& other : knowledge.consensus) add({directory.knowledge(other)});
             break;
     }
+    if (knowledge.window_length) add({"--window-length", fmt::format("{}", *knowledge.window_length)});
+    if (knowledge.match_threshold) add({"--threshold", fmt::format("{}", *knowledge.match_threshold)});
     command.insert(command.end(), knowledge.options.begin(), knowledge.options.end());
     add({"--out", directory.knowledge(knowledge.name)});
     return command;
