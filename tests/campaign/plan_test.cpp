@@ -54,7 +54,8 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     CampaignDirectory const directory{"paper"};
     struct Sharing { char const* name; int steps; };
     for (auto const& [name, steps] : {Sharing{"beyond", 30 + 1 + 3 + 60}, Sharing{"saturation", 30 + 1 + 5},
-                                      Sharing{"windows", 30 + 1 + 1}, Sharing{"faster", 30 + 1 + 3}}) {
+                                      Sharing{"windows", 30 + 1 + 1}, Sharing{"faster", 30 + 1 + 3},
+                                      Sharing{"longer", 30 + 1 + 1}}) {
         CampaignPlan const sharing = read_campaign(std::string{LORE_SOURCE_DIR "/jobs/"} + name + ".toml");
         int shared = 0;
         for (Step const& step : steps_of(sharing))
