@@ -14,6 +14,7 @@
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
 #include <lore/experiment/version.h>
+#include <lore/statistics/bootstrap.h>
 #include <lore/statistics/mann_whitney.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -41,6 +43,7 @@ struct Arguments {
     bool only_write = false;
     std::string out;             ///< of `report`
     std::string first, second;   ///< of `test`
+    bool interval = false;
     bool quiet = false;
 };
 
@@ -116,18 +119,25 @@ std::vector<double> read_sample(std::string const& path) {
         if (line.empty()) continue;
         double value = 0;
         auto const [end, failed] = std::from_chars(line.data(), line.data() + line.size(), value);
-        if (failed != std::errc{} || end != line.data() + line.size())
+        if (failed != std::errc{} || end != line.data() + line.size() || std::isnan(value))
             throw UsageError(fmt::format("{}, line {}: '{}' is no number", path, number, line.substr(0, 40)),
                              "one number a line is expected", "Remove headers and other columns.");
         sample.push_back(value);
     }
+    if (sample.empty())
+        throw UsageError(fmt::format("{} has no number", path), "one number a line is expected", "Check the path.");
     return sample;
 }
 
 ExitCode test(Arguments const& arguments) {
     auto const first = read_sample(arguments.first), second = read_sample(arguments.second);
     MannWhitney const result = mann_whitney(first, second);
-    fmt::print("U {} p {} A12 {}\n", result.u, result.p, vargha_delaney_a12(first, second));
+    fmt::print("U {} p {} A12 {}", result.u, result.p, vargha_delaney_a12(first, second));
+    if (arguments.interval) {
+        Interval const band = bootstrap_a12(first, second);
+        fmt::print(" {} .. {}", band.low, band.high);
+    }
+    fmt::print("\n");
     return ExitCode::done;
 }
 
@@ -201,6 +211,7 @@ int run(int argc, char** argv) {
         app.add_subcommand("test", "two-sided Mann-Whitney test of two files with one number a line");
     test_command->add_option("A", arguments.first, "first sample")->required();
     test_command->add_option("B", arguments.second, "second sample")->required();
+    test_command->add_flag("--interval", arguments.interval, "also the 95 % bootstrap interval of A12");
 
     try {
         app.parse(argc, argv);

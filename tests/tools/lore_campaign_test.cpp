@@ -1,0 +1,55 @@
+#include "support/program.h"
+
+#include <cstdio>
+
+using namespace lore;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
+
+namespace {
+
+class LoreCampaignTest : public test::ProgramTest {
+protected:
+    LoreCampaignTest() : ProgramTest(LORE_CAMPAIGN) {}
+
+    void write(std::string const& file, std::string const& text) { std::ofstream{scratch.file(file)} << text; }
+};
+
+} // namespace
+
+TEST_F(LoreCampaignTest, compares_two_columns) {
+    // Of ten ways to choose the two that rank lowest among five, one is this far to the left, and one to the right.
+    write("low.csv", "1\n2\n");
+    write("high.csv", "3\r\n\n4\n5e0 \n");
+    EXPECT_EQ(run("test low.csv high.csv").output, "U 0 p 0.2 A12 0\n");
+    EXPECT_THAT(run("test high.csv low.csv").output, MatchesRegex("U 6 p 0\\.(2|19999999.*) A12 1\n"));
+    EXPECT_EQ(run("test low.csv high.csv --interval").output, "U 0 p 0.2 A12 0 0 .. 0\n");
+
+    // 3 beats 2, and 2 and 2 share a point: 1.5 of the 6 pairs.
+    write("mixed.csv", "2\n4\n");
+    write("third.csv", "1\n2\n3\n");
+    EXPECT_THAT(run("test third.csv mixed.csv").output, StartsWith("U 1.5 p "));
+    std::string const told = run("test third.csv mixed.csv --interval").output;
+    EXPECT_THAT(told, HasSubstr(" A12 0.25 "));
+    double low = -1, high = -1;
+    ASSERT_EQ(std::sscanf(told.substr(told.find("0.25 ")).c_str(), "0.25 %lf .. %lf", &low, &high), 2) << told;
+    EXPECT_GE(low, 0);
+    EXPECT_LT(low, 0.25);
+    EXPECT_GT(high, 0.25);
+    EXPECT_LE(high, 1);
+}
+
+TEST_F(LoreCampaignTest, says_what_is_no_sample) {
+    write("good.csv", "1\n2\n");
+    write("header.csv", "balls\n1\n");
+    write("columns.csv", "1\n2,3\n");
+    write("empty.csv", "\n");
+    write("nan.csv", "1\nnan\n");
+    expect_refusal("test header.csv good.csv", 2, "header.csv, line 1: 'balls' is no number");
+    expect_refusal("test good.csv columns.csv", 2, "columns.csv, line 2: '2,3' is no number");
+    expect_refusal("test good.csv missing.csv", 2, "cannot read missing.csv");
+    expect_refusal("test good.csv empty.csv", 2, "empty.csv has no number");
+    expect_refusal("test nan.csv good.csv", 2, "nan.csv, line 2");
+    expect_refusal("test good.csv", 2, "B is required");
+}
