@@ -6,6 +6,8 @@
 // The first works through everything and can be stopped and called again; the second writes runs/small/report.html.
 // docs/campaigns.md is the how-to, docs/cluster.md the one for batch systems.
 
+#include "program.h"
+
 #include <lore/campaign/choice.h>
 #include <lore/campaign/plan.h>
 #include <lore/campaign/report.h>
@@ -17,17 +19,17 @@
 #include <lore/statistics/bootstrap.h>
 #include <lore/statistics/mann_whitney.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
+#include <set>
 #include <thread>
 
 namespace {
@@ -74,9 +76,16 @@ ExitCode status(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
     CampaignDirectory const directory{arguments.directory};
     std::map<StepStatus, int> counts;
+    std::set<std::string> unfinished;   // groups; every step comes after those that it waits for
     for (Step const& step : steps_of(campaign)) {
-        StepState const state = state_of(campaign, directory, step);
+        StepState state = state_of(campaign, directory, step);
         ++counts[state.status];
+        if (state.status != StepStatus::done) unfinished.insert(step.group);
+        if (state.status == StepStatus::missing) {
+            auto const open = std::find_if(step.after.begin(), step.after.end(),
+                                           [&](std::string const& group) { return unfinished.contains(group); });
+            state.reason = open == step.after.end() ? "not started" : fmt::format("waits for {}", *open);
+        }
         if (!arguments.quiet) fmt::print("{:<24} {:<12} {}\n", step.name, name(state.status), state.reason);
     }
     std::vector<std::string> words;
@@ -115,8 +124,9 @@ std::vector<double> read_sample(std::string const& path) {
     int number = 0;
     for (std::string line; std::getline(file, line);) {
         ++number;
-        while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t')) line.pop_back();
-        if (line.empty()) continue;
+        std::size_t const first = line.find_first_not_of(" \t\r");
+        if (first == std::string::npos) continue;
+        line = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
         double value = 0;
         auto const [end, failed] = std::from_chars(line.data(), line.data() + line.size(), value);
         if (failed != std::errc{} || end != line.data() + line.size() || std::isnan(value))
@@ -156,12 +166,13 @@ int run(int argc, char** argv) {
         "lore-campaign"};
     app.set_version_flag("--version", [] { return version_text("lore-campaign"); });
     app.require_subcommand(1);
+    app.fallthrough();
+    app.add_flag("-q,--quiet", arguments.quiet, "say only what went wrong");
 
     auto const on_campaign = [&](std::string const& name, std::string const& what) {
         CLI::App* const command = app.add_subcommand(name, what);
         command->add_option("FILE", arguments.file, "the campaign, such as jobs/paper.toml")->required();
         command->add_option("--dir", arguments.directory, "where its runs and results lie")->required();
-        command->add_flag("-q,--quiet", arguments.quiet, "say only what went wrong");
         return command;
     };
     auto const starts_runs = [&](CLI::App* command) {
@@ -213,17 +224,7 @@ int run(int argc, char** argv) {
     test_command->add_option("B", arguments.second, "second sample")->required();
     test_command->add_flag("--interval", arguments.interval, "also the 95 % bootstrap interval of A12");
 
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::CallForHelp const& help) {
-        return app.exit(help);
-    } catch (CLI::CallForVersion const& version) {
-        return app.exit(version);
-    } catch (CLI::ParseError const& error) {
-        std::string const problem = error.what();
-        throw UsageError(problem.substr(0, problem.find('\n')), "command line", "See 'lore-campaign --help'.");
-    }
-
+    if (auto const only = parse_command_line(app, argc, argv)) return *only;
     arguments.runner.quiet = arguments.quiet;
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -243,13 +244,5 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (lore::Error const& error) {
-        std::cerr << "lore-campaign: " << error.what() << '\n';
-        return static_cast<int>(error.exit_code());
-    } catch (std::exception const& error) {
-        std::cerr << "lore-campaign: " << error.what() << '\n';
-        return static_cast<int>(lore::ExitCode::failure);
-    }
+    return lore::run_program("lore-campaign", [&] { return run(argc, argv); });
 }

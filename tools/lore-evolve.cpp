@@ -85,7 +85,8 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_option("config", line.run.config_path, "the run's configuration, such as jobs/source.toml");
     app.add_option("--out", line.run.directory, "directory to write into; made if it is not there")->type_name("DIR");
     std::uint64_t seed = 1;
-    auto* const seed_option = app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N");
+    auto* const seed_option =
+        app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N")->check(seed_digits);
     app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")
         ->type_name("KEY=VALUE")
         ->expected(1)
@@ -156,7 +157,7 @@ int main(int argc, char** argv) {
             complain(fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what()), ExitCode::failure);
             session.abort(1);
         }
-        if (std::fflush(stdout) != 0 && status == 0)
+        if (!stdout_is_written() && status == 0)
             status = complain("cannot write the result to stdout", ExitCode::failure);
     } catch (Error const& error) {
         return complain(error.what(), error.exit_code());

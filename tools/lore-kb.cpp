@@ -26,10 +26,15 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+
+#include <unistd.h>
 
 namespace {
 
@@ -43,7 +48,7 @@ struct Arguments {
     std::string out, csv, npy, run, windows, individual = "best", index = "exact";
     std::vector<std::string> consensus;
     KnowledgeConfig config;
-    bool window_length_given = false, threshold_given = false;
+    bool window_length_given = false, threshold_given = false, individual_given = false;
     bool all = false, json = false;
     int every = 1;                       ///< of all
     std::uint64_t seed = 0;
@@ -63,14 +68,20 @@ void say(Arguments const& arguments, std::string const& line) {
 /// Before long work is done for a file that cannot be written.
 void check_writable(std::string const& path) {
     std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
+    std::string const place = directory.empty() ? "." : directory.string();
     if (std::filesystem::is_directory(path))
         throw UsageError(fmt::format("cannot write {}", path), "it is a directory", "Name a file in it.");
     if (!directory.empty() && !std::filesystem::is_directory(directory))
         throw UsageError(fmt::format("cannot write {}", path),
                          fmt::format("there is no directory {}", directory.string()), "Make it first.");
+    if (::access(place.c_str(), W_OK) != 0)
+        throw Error(fmt::format("cannot write {}", path), fmt::format("{}: {}", place, std::strerror(errno)),
+                    "Choose a place where you may write.");
 }
 
 void build(Arguments const& arguments) {
+    if (arguments.all && arguments.individual_given)
+        throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
     check_writable(arguments.out);
     IndexKind const kind = index_kind(arguments.index);
     RunDirectory const run = open_run(arguments.input);
@@ -78,6 +89,10 @@ void build(Arguments const& arguments) {
     if (arguments.window_length_given) config.window_length = arguments.config.window_length;
     if (arguments.threshold_given) config.match_threshold = arguments.config.match_threshold;
 
+    if (config.window_length > run.config.episode.steps)
+        throw UsageError(fmt::format("cannot build with windows of {} steps", config.window_length),
+                         fmt::format("an evaluation of this run has {}", run.config.episode.steps),
+                         "Give a shorter --window-length.");
     auto const individual = run.individual(arguments.individual);
     auto const total = static_cast<std::int64_t>(
         arguments.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(arguments.every) + 1
@@ -141,6 +156,8 @@ void query(Arguments const& arguments) {
     if (arguments.run.empty() == arguments.windows.empty())
         throw UsageError("cannot query", "one source of windows is needed",
                          "Give either --run DIR or --windows FILE.npy.");
+    if (arguments.individual_given && arguments.run.empty())
+        throw UsageError("cannot query", "--individual is of a run", "Give --run DIR, or leave it out.");
     check_writable(arguments.csv);
     KnowledgeBase const base = read_knowledge_base(arguments.input);
     int const length = base.config().window_length;
@@ -249,6 +266,13 @@ void export_base(Arguments const& arguments) {
         fmt::format("wrote {}: {} features", arguments.npy.empty() ? arguments.csv : arguments.npy, base.size()));
 }
 
+/// CLI11 reads "nan" as a number within any range.
+CLI::Validator const a_number{
+    [](std::string& text) {
+        return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("'{}' is no number", text) : std::string{};
+    },
+    ""};
+
 int run(int argc, char** argv) {
     Arguments arguments;
     arguments.command_line = fmt::format("lore-kb {}", fmt::join(argv + 1, argv + argc, " "));
@@ -288,7 +312,10 @@ int run(int argc, char** argv) {
             ->capture_default_str();
     };
     auto const add_individual = [&](CLI::App* to) {
-        to->add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
+        to->add_option("--individual", "'best', or GENERATION.SLOT")
+            ->type_name("ID")
+            ->default_str("best")
+            ->each([&](std::string const& id) { arguments.individual = id; arguments.individual_given = true; });
     };
 
     CLI::App* const building = command("build", "Build a knowledge base from a run", build);
@@ -303,11 +330,12 @@ int run(int argc, char** argv) {
         ->needs(all);
     auto* const length_option =
         building->add_option("--window-length", arguments.config.window_length, "steps a window; default: the run's")
-            ->check(CLI::Range(1, 4000));
+            ->check(CLI::Range(1, longest_window));
     auto* const threshold_option = building
                                        ->add_option("--threshold", arguments.config.match_threshold,
                                                     "distance below which a window matches; default: the run's")
-                                       ->check(CLI::Range(1e-3, 1e3));
+                                       ->check(CLI::Range(1e-3, 1e3))
+                                       ->check(a_number);
 
     CLI::App* const telling = command("info", "Show what is in a knowledge base and where it came from", info);
     add_base(telling);
@@ -331,15 +359,16 @@ int run(int argc, char** argv) {
 
     CLI::App* const randomizing = command("randomize", "Replace the values by random ones ('KB random')", randomize);
     add_base(randomizing);
-    randomizing->add_option("--seed", arguments.seed, "of the random values")->required();
+    randomizing->add_option("--seed", arguments.seed, "of the random values")->required()->check(seed_digits);
     add_out(randomizing);
 
     CLI::App* const reducing = command("reduce", "Keep some of the features", reduce);
     add_base(reducing);
-    reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::NonNegativeNumber);
-    reducing->add_option("--min-value", arguments.least_value, "those of at least this value");
+    reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::Range(1, 1000000000));
+    reducing->add_option("--min-value", arguments.least_value, "those of at least this value")
+        ->check(a_number);
     reducing->add_option("--min-count", arguments.least_count, "those that at least so many individuals have shown")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(1, 1000000000));
     reducing->add_option("--consensus", arguments.consensus, "those that every one of these knowledge bases knows")
         ->expected(1, 1000);
     add_out(reducing);

@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::uint32_t layout_version = 1;
 constexpr std::uint64_t alignment = 64;
-constexpr std::uint32_t longest_window = 4000;          ///< [steps]: an evaluation of the paper
 constexpr std::uint64_t most_features = 1u << 30;       ///< a feature's number is an int
 
 /// The first bytes of the payload. The arrays follow in the order of Layout, the provenance as JSON at the end.
@@ -112,7 +111,7 @@ Preamble checked_preamble(std::span<std::byte const> payload, std::string const&
         refuse(path,
                fmt::format("it has {} binary and {} continuous channels, this Lore has {} and {}",
                            preamble.binary_channels, preamble.continuous_channels, binary_count, continuous_count));
-    if (preamble.window_length < 1 || preamble.window_length > longest_window)
+    if (preamble.window_length < 1 || preamble.window_length > std::uint32_t{longest_window})
         refuse(path, fmt::format("a window length of {} steps", preamble.window_length));
     if (!(preamble.match_threshold > 0) || !std::isfinite(preamble.match_threshold))
         refuse(path, fmt::format("a match threshold of {}", preamble.match_threshold));

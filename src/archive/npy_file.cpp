@@ -23,7 +23,8 @@ static_assert(std::endian::native == std::endian::little, "NPY arrays are read a
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t alignment = 64;   ///< of the data, by the format's definition
 
-[[noreturn]] void refuse(std::string const& path, std::string const& reason, std::string_view remedy = "Write it with numpy.save.") {
+[[noreturn]] void refuse(std::string const& path, std::string const& reason,
+                         std::string_view remedy = "Write it with numpy.save.") {
     throw Error(fmt::format("cannot read {}", path), reason, remedy);
 }
 
@@ -105,17 +106,20 @@ template <class Stored> std::vector<float> values_of(std::span<std::byte const> 
         Stored number;
         std::memcpy(&number, data.data() + i * sizeof number, sizeof number);
         values[i] = static_cast<float>(number);
-        if (!std::isfinite(values[i])) refuse(path, fmt::format("value {} is not finite", i), "Remove NaN and infinity.");
+        if (!std::isfinite(values[i]))
+            refuse(path, fmt::format("value {} is not finite", i), "Remove NaN and infinity.");
     }
     return values;
 }
 
-template <class T> void write_array(std::string const& path, std::span<T const> values, std::span<std::size_t const> shape, std::string_view descr) {
+template <class T>
+void write_array(std::string const& path, std::span<T const> values, std::span<std::size_t const> shape,
+                 std::string_view descr) {
     std::size_t count = 1;
     for (std::size_t const size : shape) count *= size;
     assert(count == values.size());
-    std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr, fmt::join(shape, ", "),
-                                     shape.size() == 1 ? "," : "");
+    std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
+                                     fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
     std::size_t const before = magic.size() + 4;   // magic, two version bytes, two length bytes
     header.append(alignment - 1 - (before + header.size()) % alignment, ' ');
     header += '\n';
@@ -147,9 +151,10 @@ NpyArray read_npy(std::string const& path) {
 
     auto header = HeaderReader{text.substr(start, length)}.read();
     if (!header) refuse(path, "its header cannot be understood");
-    bool const is_double = header->descr == "<f8";
-    if (!is_double && header->descr != "<f4")
-        refuse(path, fmt::format("its values are '{}', not '<f4' or '<f8'", header->descr), "Convert them with astype('float32').");
+    bool const is_double = header->descr == "<f8", is_count = header->descr == "<u4";
+    if (!is_double && !is_count && header->descr != "<f4")
+        refuse(path, fmt::format("its values are '{}', not '<f4', '<f8' or '<u4'", header->descr),
+               "Convert them with astype('float32').");
     if (header->fortran_order) refuse(path, "its values are in Fortran order", "Save numpy.ascontiguousarray(...).");
     auto const data = std::span{file}.subspan(start + length);
     std::size_t const value_size = is_double ? 8 : 4;
@@ -159,8 +164,11 @@ NpyArray read_npy(std::string const& path) {
         count *= size;
     }
     if (count * value_size != data.size())
-        refuse(path, fmt::format("{} bytes of values, its shape ({}) needs {}", data.size(), fmt::join(header->shape, ", "), count * value_size));
-    return {std::move(header->shape), is_double ? values_of<double>(data, path) : values_of<float>(data, path)};
+        refuse(path, fmt::format("{} bytes of values, its shape ({}) needs {}", data.size(),
+                                 fmt::join(header->shape, ", "), count * value_size));
+    return {std::move(header->shape), is_double  ? values_of<double>(data, path)
+                                      : is_count ? values_of<std::uint32_t>(data, path)
+                                                 : values_of<float>(data, path)};
 }
 
 void write_npy(std::string const& path, std::span<float const> values, std::span<std::size_t const> shape) {

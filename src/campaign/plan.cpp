@@ -98,7 +98,8 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
                 table.fail("options", fmt::format("'{}' is for the runs that use the base too", option),
                            "Write window_length = or match_threshold = instead.");
         plan.match_threshold = table.number("match_threshold", 0, 1000);
-        if (auto const steps = table.integer("window_length", 1, 32767)) plan.window_length = static_cast<int>(*steps);
+        if (auto const steps = table.integer("window_length", 1, longest_window))
+            plan.window_length = static_cast<int>(*steps);
     }
     if (plan.kind == KnowledgeKind::reduced) {
         std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
@@ -132,14 +133,24 @@ KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowle
     return config;
 }
 
+/// Windows that a treatment's runs read. A mistake in its configuration is one of this campaign's file.
+KnowledgeConfig windows_read(TomlTable const& table, std::string const& config_path,
+                             std::vector<std::string> const& overrides) {
+    try {
+        return read_config(config_path, overrides).knowledge;
+    } catch (Error const& error) {
+        table.fail(table.has("set") ? "set" : "config", error.what());
+    }
+}
+
 /// Has a treatment's runs read the windows of its base, unless its configuration does so already.
 void fit_windows(TomlTable const& table, std::string const& config_path, Treatment& treatment,
                  KnowledgeConfig const& base) {
-    if (read_config(config_path, {}).knowledge != base)
+    if (windows_read(table, config_path, {}) != base)
         treatment.overrides.insert(treatment.overrides.begin(),
                                    {fmt::format("knowledge.window_length={}", base.window_length),
                                     fmt::format("knowledge.match_threshold={}", base.match_threshold)});
-    KnowledgeConfig const read = read_config(config_path, treatment.overrides).knowledge;
+    KnowledgeConfig const read = windows_read(table, config_path, treatment.overrides);
     if (read != base)
         table.fail("set",
                    fmt::format("it asks for windows of {} steps and threshold {}, and '{}' has {} and {}",
@@ -180,9 +191,10 @@ CampaignPlan read_campaign(std::string const& path) {
     defaults.first_seed = document.integer("first_seed", 0, most_seed).value_or(defaults.first_seed);
     defaults.generations = document.integer("generations", 1, 10'000'000).value_or(0);
 
-    plan.source = read_treatment(document.required_table("source"), defaults, "source");
+    TomlTable const source = document.required_table("source");
+    plan.source = read_treatment(source, defaults, "source");
     if (!plan.source.knowledge.empty()) document.fail("source", "the source treatment cannot use a knowledge base");
-    KnowledgeConfig const source_windows = read_config(plan.config_path(plan.source), plan.source.overrides).knowledge;
+    KnowledgeConfig const source_windows = windows_read(source, plan.config_path(plan.source), plan.source.overrides);
 
     std::vector<std::string> bases;
     for (TomlTable const& table : document.tables("knowledge")) {
@@ -192,7 +204,8 @@ CampaignPlan read_campaign(std::string const& path) {
         if (!knowledge.base.empty()) check_name(table, "name", knowledge.base, bases);
         for (std::string const& other : knowledge.consensus) check_name(table, "consensus", other, bases);
         if (knowledge.run > plan.source.runs)
-            table.fail("run", fmt::format("there are only {} source runs", plan.source.runs));
+            table.fail("run", fmt::format("there are only {} source runs", plan.source.runs),
+                       "Name one of them, or raise their number.");
         bases.push_back(knowledge.name);
         plan.knowledge.push_back(std::move(knowledge));
         KnowledgeKind const kind = plan.knowledge.back().kind;
@@ -214,7 +227,7 @@ CampaignPlan read_campaign(std::string const& path) {
             table.fail("name", fmt::format("'{}' is defined twice", treatment.name), "Rename one.");
         std::string const config_path = plan.config_path(treatment);
         if (treatment.knowledge.empty()) {
-            read_config(config_path, treatment.overrides);
+            windows_read(table, config_path, treatment.overrides);
         } else {
             check_name(table, "knowledge", treatment.knowledge, bases);
             fit_windows(table, config_path, treatment,

@@ -10,7 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <optional>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -57,6 +60,31 @@ std::string output_of(std::vector<std::string> const& command) {
                     WEXITSTATUS(status) == 127 ? "Call it where Slurm's programs are, or use 'lore-campaign run'."
                                                : "Mend that and submit again.");
     return text;
+}
+
+/// Slurm's forms of a time: minutes, minutes:seconds, hours:minutes:seconds, days-hours, days-hours:minutes,
+/// days-hours:minutes:seconds; or none at all.
+std::optional<std::int64_t> seconds_of(std::string const& limit) {
+    if (limit == "UNLIMITED" || limit == "INFINITE") return std::numeric_limits<std::int64_t>::max();
+    static std::regex const form{R"((?:(\d{1,4})-)?(\d{1,9})(?::(\d{1,2}))?(?::(\d{1,2}))?)"};
+    std::smatch parts;
+    if (!std::regex_match(limit, parts, form)) return std::nullopt;
+    auto const number = [&](std::size_t i) { return parts[i].matched ? std::stoll(parts[i].str()) : 0LL; };
+    if (parts[1].matched) return ((number(1) * 24 + number(2)) * 60 + number(3)) * 60 + number(4);
+    if (parts[4].matched) return (number(2) * 60 + number(3)) * 60 + number(4);
+    return number(2) * 60 + number(3);
+}
+
+void check_times(ClusterPlan const& cluster) {
+    auto const seconds = seconds_of(cluster.time_limit);
+    if (!seconds)
+        throw UsageError(fmt::format("cannot submit with a time limit of '{}'", cluster.time_limit), "it is no time",
+                         "Write it like 04:00:00.");
+    if (*seconds <= cluster.warning_seconds)
+        throw UsageError(
+            fmt::format("cannot submit with a time limit of {}", cluster.time_limit),
+            fmt::format("tasks are told to stop {} s before it (cluster.warning_seconds)", cluster.warning_seconds),
+            "Give them longer, or warn them later.");
 }
 
 std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directory, Launcher const& launcher,
@@ -133,6 +161,7 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory co
 
 std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirectory const& directory,
                                          Launcher const& launcher, std::string const& program, bool only_write) {
+    check_times(plan.cluster);
     std::string const record = directory.file("slurm/jobs.txt");
     if (!only_write && fs::exists(record)) {
         std::ifstream file{record};
@@ -148,8 +177,13 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
                             "Wait for it, or cancel the jobs in slurm/jobs.txt with scancel.");
     }
     std::vector<BatchJob> const jobs = batch_jobs(plan, directory, launcher, program);
-    fs::create_directories(directory.file("slurm"));
-    fs::create_directories(directory.file("logs"));
+    for (char const* const folder : {"slurm", "logs"}) {
+        std::error_code failed;
+        fs::create_directories(directory.file(folder), failed);
+        if (failed)
+            throw Error(fmt::format("cannot make the directory {}", directory.file(folder)), failed.message(),
+                        "Choose a directory that can be written.");
+    }
     std::map<std::string, std::string> id_of_group;
     std::vector<std::string> lines;
     std::string recorded;

@@ -181,6 +181,9 @@ void clear_failure(CampaignDirectory const& directory, Step const& step) {
 std::optional<StepLock> StepLock::take(std::string const& path) {
     std::error_code failed;
     fs::create_directories(fs::path{path}.parent_path(), failed);
+    if (failed)
+        throw Error(fmt::format("cannot make the directory {}", fs::path{path}.parent_path().string()),
+                    failed.message(), "Choose a directory that can be written.");
     int const descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0)
         throw Error(fmt::format("cannot write {}", path), std::strerror(errno),

@@ -30,11 +30,15 @@ void read_settings(TomlTable const& document, std::vector<Setting> const& settin
     }
     auto const reject = [&](TomlTable const& table, std::string_view section) {
         for (std::string const& key : table.keys()) {
-            auto const belongs = [&](Setting const& s) { return s.section == section ? s.key == key : section.empty() && s.section == key; };
+            auto const belongs = [&](Setting const& s) {
+                return s.section == section ? s.key == key : section.empty() && s.section == key;
+            };
             if (std::any_of(settings.begin(), settings.end(), belongs)) continue;
             // A right key in the wrong section is a likelier mistake than a similar one in this section.
-            auto const elsewhere = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
-            if (elsewhere != settings.end()) table.fail(key, "unknown key", fmt::format("Did you mean '{}'?", elsewhere->full_key()));
+            auto const elsewhere =
+                std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
+            if (elsewhere != settings.end())
+                table.fail(key, "unknown key", fmt::format("Did you mean '{}'?", elsewhere->full_key()));
         }
         table.reject_unknown();
     };
@@ -50,20 +54,28 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
         throw UsageError(label, "there is no key=value in it", "Write it like --set evolution.generations=500.");
     std::string const key = override.substr(0, equals);
     std::string value = override.substr(equals + 1);
-    auto const setting = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.full_key() == key; });
+    auto const setting =
+        std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.full_key() == key; });
     if (setting == settings.end()) {
         std::vector<std::string> known;
         for (Setting const& s : settings) known.push_back(s.full_key());
-        auto const elsewhere = std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
+        auto const elsewhere =
+            std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.key == key; });
         std::vector<std::string_view> const views(known.begin(), known.end());
-        std::string const meant = elsewhere != settings.end() ? elsewhere->full_key() : nearest_word(key, views.data(), views.size());
-        throw UsageError(label, "unknown key", meant.empty() ? "See 'lore-evolve --help'." : fmt::format("Did you mean '{}'?", meant));
+        std::string const meant =
+            elsewhere != settings.end() ? elsewhere->full_key() : nearest_word(key, views.data(), views.size());
+        throw UsageError(label, "unknown key",
+                         meant.empty() ? "config.toml in the directory of any run has all of them."
+                                       : fmt::format("Did you mean '{}'?", meant));
     }
-    if (value.find_first_of("\r\n") != std::string::npos) throw UsageError(label, "the value has several lines", "Give one value.");
-    if (setting->kind == Setting::Kind::text && !value.starts_with('"') && !value.starts_with('\'')) value = "'" + value + "'";
+    if (value.find_first_of("\r\n") != std::string::npos)
+        throw UsageError(label, "the value has several lines", "Give one value.");
+    if (setting->kind == Setting::Kind::text && !value.starts_with('"') && !value.starts_with('\''))
+        value = "'" + value + "'";
     if (setting->kind == Setting::Kind::list && !value.starts_with('[')) {
         std::string list = "['" + value + "']";
-        for (std::size_t comma = 0; (comma = list.find(',', comma)) != std::string::npos; comma += 3) list.replace(comma, 1, "','");
+        for (std::size_t comma = 0; (comma = list.find(',', comma)) != std::string::npos; comma += 3)
+            list.replace(comma, 1, "','");
         value = std::move(list);
     }
     std::string const section = setting->section.empty() ? "" : fmt::format("[{}]\n", setting->section);
@@ -77,15 +89,20 @@ void check(ExperimentConfig const& config, std::string const& name) {
     };
     EvolutionConfig const& evolution = config.evolution;
     if (evolution.founders < evolution.population)
-        refuse("evolution.founders", fmt::format("{} is less than the population of {}", evolution.founders, evolution.population),
+        refuse("evolution.founders",
+               fmt::format("{} is less than the population of {}", evolution.founders, evolution.population),
                "Take at least as many.");
     int const root = evolution.mutation.eta + 1;
     if ((root & (root - 1)) != 0)
-        refuse("mutation.eta", fmt::format("{} + 1 is not a power of two", evolution.mutation.eta), "Take 15, as the paper does, or 7 or 31.");
+        refuse("mutation.eta", fmt::format("{} + 1 is not a power of two", evolution.mutation.eta),
+               "Take 15, as the paper does, or 7 or 31.");
     if (config.knowledge.window_length > config.episode.steps)
-        refuse("knowledge.window_length", fmt::format("{} is more than the {} steps of an evaluation", config.knowledge.window_length, config.episode.steps),
+        refuse("knowledge.window_length",
+               fmt::format("{} is more than the {} steps of an evaluation", config.knowledge.window_length,
+                           config.episode.steps),
                "Take at most episode.steps.");
-    if (!(config.knowledge.match_threshold > 0)) refuse("knowledge.match_threshold", "0 matches nothing", "Take a positive number.");
+    if (!(config.knowledge.match_threshold > 0))
+        refuse("knowledge.match_threshold", "0 matches nothing", "Take a positive number.");
 }
 
 /// A path of an arena file starts where the configuration lies; a built-in arena's name is left alone.

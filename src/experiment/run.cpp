@@ -6,6 +6,7 @@
 #include "work_order.h"
 
 #include <lore/archive/genome_file.h>
+#include <lore/archive/lineage_file.h>
 #include <lore/core/progress.h>
 #include <lore/core/stopwatch.h>
 #include <lore/experiment/run_directory.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <utility>
 
@@ -26,7 +28,8 @@ namespace {
 constexpr int generations_a_line = 100;   ///< of progress, where stderr is no terminal
 
 std::string describe(ProgressRow const& row, bool shaped) {
-    std::string note = fmt::format("best {} balls, mean {:.2f}, {}", row.best_balls, row.mean_balls, name(row.distance));
+    std::string note =
+        fmt::format("best {} balls, mean {:.2f}, {}", row.best_balls, row.mean_balls, name(row.distance));
     if (shaped) note += fmt::format(", shaping {:.2f}", row.best_shaping);
     return note;
 }
@@ -41,7 +44,8 @@ Error tell(EvaluationFailure const& failure, int generation, std::string const& 
     } catch (Error const& error) {
         remedy = fmt::format("Its genome could not be saved: {}", error.what());
     }
-    return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id), failure.rank(), generation),
+    return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id),
+                             failure.rank(), generation),
                  failure.reason(), remedy);
 }
 
@@ -51,21 +55,26 @@ Error tell(EvaluationFailure const& failure, int generation, std::string const& 
     session.abort(static_cast<int>(error.exit_code()));
 }
 
-struct Ready {
-    PreparedRun run;
-    EvaluationContext context;
-};
-
 /// Prepares while the other ranks wait: whatever goes wrong, they are released.
-Ready prepare_or_release(Session const& session, RunOptions const& options) {
+PreparedRun prepare_or_release(Session const& session, RunOptions const& options) {
     try {
-        PreparedRun run = prepare_run(options);
-        EvaluationContext context = context_of(run.setup.order);   // complaints come before anything is written or sent
-        return {std::move(run), std::move(context)};
+        return prepare_run(options);
     } catch (...) {
         release_other_ranks(session);
         throw;
     }
+}
+
+/// A finished run has nothing to do but to write its lineage again where that is lost or damaged.
+void mend_lineage(RunSetup const& setup) {
+    std::string const path = setup.file(run_file::lineage);
+    auto const& outputs = setup.manifest.outputs;
+    auto const listed = std::find_if(outputs.begin(), outputs.end(),
+                                     [](FileRecord const& output) { return output.path == run_file::lineage; });
+    bool const whole =
+        std::filesystem::exists(path) &&
+        (listed == outputs.end() || record_of("output", path, listed->path).checksum == listed->checksum);
+    if (!whole) write_lineage(path, setup.checkpoint->state.population);
 }
 
 } // namespace
@@ -73,17 +82,19 @@ Ready prepare_or_release(Session const& session, RunOptions const& options) {
 RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     Stopwatch const watch;
     install_stop_handlers();
-    Ready ready = prepare_or_release(session, options);
-    RunSetup& setup = ready.run.setup;
+    PreparedRun run = prepare_or_release(session, options);
+    RunSetup& setup = run.setup;
     EvolutionState state = setup.checkpoint ? setup.checkpoint->state : EvolutionState{};
     if (setup.already_done) {
         release_other_ranks(session);
+        mend_lineage(setup);
         return {true, "", state.signature.text(), state.population.generation, best_of_run(state.population).birth};
     }
     if (!setup.warning.empty()) fmt::print(stderr, "warning: {}\n", setup.warning);
 
     std::vector<std::string> hosts = give_order(session, setup.order);
-    Farm farm{session.world(), evaluation_in(std::move(ready.context))};   // releases the others whatever happens from here on
+    Farm farm{session.world(),
+              evaluation_in(std::move(run.context))};   // releases the others whatever happens from here on
     EvolutionConfig const evolution = setup.order.config.evolution;
     std::uint64_t const seed = setup.seed;
     std::string const genome_path = setup.file(run_file::failed_genome);
@@ -100,7 +111,8 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         progress.update(generation, describe(books.add(report), evolution.use_shaping));
         if (generation == evolution.generations) return true;
         stop_reason = stop_request();
-        if (stop_reason.empty() && options.max_seconds && watch.total() >= *options.max_seconds) stop_reason = "time limit";
+        if (stop_reason.empty() && options.max_seconds && watch.total() >= *options.max_seconds)
+            stop_reason = "time limit";
         if (!stop_reason.empty()) return false;
         if (books.checkpoint_is_due()) books.write_checkpoint(*report.state);
         return true;
@@ -124,11 +136,13 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     }
 
     std::vector<RankTimes> const rank_times = farm.stop();
-    books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted, stop_reason.empty() ? "done" : stop_reason);
+    books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
+                stop_reason.empty() ? "done" : stop_reason);
     times.files = books.filing_seconds();
     times.wall = watch.total();
     if (!options.quiet) fmt::print(stderr, "{}", time_report(rank_times, times));
-    return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation, best_of_run(state.population).birth};
+    return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation,
+            best_of_run(state.population).birth};
 }
 
 } // namespace lore

@@ -39,13 +39,16 @@ std::shared_ptr<Birth const> RunDirectory::individual(std::string const& which) 
 RunDirectory open_run(std::string const& path) {
     RunDirectory run;
     run.path = path;
-    if (!std::filesystem::is_directory(path)) throw Error(fmt::format("no run in {}", path), "no such directory", "Check the path.");
+    if (!std::filesystem::is_directory(path))
+        throw Error(fmt::format("no run in {}", path), "no such directory", "Check the path.");
     if (!std::filesystem::exists(run.file(run_file::config)))
-        throw Error(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config), "Check the path.");
+        throw Error(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config),
+                    "Check the path.");
     run.config = read_config(run.file(run_file::config));
     run.arena = load_arena(run.config.arena, run.config.task);
     if (!std::filesystem::exists(run.file(run_file::lineage)))
-        throw Error(fmt::format("no lineage in {}", path), "the run has not reached its first checkpoint",
+        throw Error(fmt::format("no lineage in {}", path),
+                    fmt::format("{} is written when a run stops or ends", run_file::lineage),
                     "Let it go on with 'lore-evolve --resume'.");
     run.lineage = read_lineage(run.file(run_file::lineage));
     return run;

@@ -38,12 +38,15 @@ struct RunSetup {
     std::string file(std::string_view name) const;
 };
 
-/// Makes the directory if need be, and takes the lock before looking into it.
 struct PreparedRun {
     std::unique_ptr<DirectoryLock> lock;
     RunSetup setup;
+    EvaluationContext context;   ///< of rank 0
 };
-/// Throws UsageError: the directory holds a run and --resume was not given, or the options contradict the run resumed.
+/// Checks all that can be checked before anything is sent to the other ranks. The directory of a new run is made last,
+/// so that a refused one leaves nothing behind; that of a run to be resumed is locked before it is read.
+/// Throws UsageError: the directory holds a run and --resume was not given, or the options contradict the run resumed;
+/// Error: another process has the directory, or a file cannot be read or made.
 PreparedRun prepare_run(RunOptions const&);
 
 } // namespace lore

@@ -64,7 +64,9 @@ public:
                  if (read->empty()) table.fail(key, "the list is empty", "Name at least one.");
                  std::vector<Choice> parsed;
                  for (std::string const& word : *read) {
-                     try { parsed.push_back(parse(word)); } catch (UsageError const& error) { table.fail(key, error.what()); }
+                     try {
+                         parsed.push_back(parse(word));
+                     } catch (UsageError const& error) { table.fail(key, error.what()); }
                  }
                  values = std::move(parsed);
              },
@@ -80,14 +82,16 @@ private:
         std::string literal = "\"";
         for (char const c : text) {
             if (c == '"' || c == '\\') literal += '\\';
-            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) literal += fmt::format("\\u{:04x}", static_cast<int>(c));
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+                literal += fmt::format("\\u{:04x}", static_cast<int>(c));
             else literal += c;
         }
         return literal + "\"";
     }
     template <class Number>
     static std::string range(Number least, Number most) {
-        return most == std::numeric_limits<Number>::max() ? fmt::format("at least {}", least) : fmt::format("{} .. {}", least, most);
+        return most == std::numeric_limits<Number>::max() ? fmt::format("at least {}", least)
+                                                          : fmt::format("{} .. {}", least, most);
     }
     void push(std::string const& key, std::string doc, Setting::Kind kind, std::function<void(TomlTable const&)> read,
               std::function<std::string()> text) {
@@ -123,27 +127,33 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("use_shaping", evolution.use_shaping, "objective: reward shaping; set by --kb");
 
     d.section("diversity");
-    d.add("period", evolution.diversity.period, 1, any, "the behavioural distance is drawn anew every so many generations");
+    d.add("period", evolution.diversity.period, 1, any,
+          "the behavioural distance is drawn anew every so many generations");
     d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: adhoc, hamming, trajectory, entropy");
 
     MutationConfig& mutation = evolution.mutation;
     d.section("mutation");
     d.add("weight_probability", mutation.weight_probability, 0.0, 1.0, "per weight: polynomial mutation");
     d.add("bias_probability", mutation.bias_probability, 0.0, 1.0, "per bias: polynomial mutation");
-    d.add("rewire_probability", mutation.rewire_probability, 0.0, 1.0, "per connection, at most one a mutation: an end is redrawn");
+    d.add("rewire_probability", mutation.rewire_probability, 0.0, 1.0,
+          "per connection, at most one a mutation: an end is redrawn");
     d.add("add_edge_probability", mutation.add_edge_probability, 0.0, 1.0, "a connection is added");
     d.add("delete_edge_probability", mutation.delete_edge_probability, 0.0, 1.0, "a connection is removed");
     d.add("add_neuron_probability", mutation.add_neuron_probability, 0.0, 1.0, "a connection is split by a new neuron");
-    d.add("delete_neuron_probability", mutation.delete_neuron_probability, 0.0, 1.0, "a hidden neuron is removed with its connections");
+    d.add("delete_neuron_probability", mutation.delete_neuron_probability, 0.0, 1.0,
+          "a hidden neuron is removed with its connections");
     d.add("eta", mutation.eta, 0, 1023, "distribution index of the polynomial mutation; a power of two less one");
 
     d.section("limits");
     d.add("max_hidden", evolution.limits.max_hidden, 0, most_hidden, "hidden neurons of a controller");
-    d.add("max_edges", evolution.limits.max_edges, sensor_count * effector_count, most_edges, "connections of a controller");
+    d.add("max_edges", evolution.limits.max_edges, sensor_count * effector_count, most_edges,
+          "connections of a controller");
 
     d.section("knowledge");
-    d.add("window_length", config.knowledge.window_length, 1, 32767, "what a knowledge base must have been cut with [steps]");
-    d.add("match_threshold", config.knowledge.match_threshold, 0.0, 1000.0, "a window nearer than this to a feature matches it [L2]");
+    d.add("window_length", config.knowledge.window_length, 1, longest_window,
+          "what a knowledge base must have been cut with [steps]");
+    d.add("match_threshold", config.knowledge.match_threshold, 0.0, 1000.0,
+          "a window nearer than this to a feature matches it [L2]");
 
     d.section("checkpoint");
     d.add("generations", config.checkpoint_generations, 1, any, "a checkpoint every so many generations");

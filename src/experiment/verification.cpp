@@ -1,19 +1,23 @@
 #include <lore/experiment/verification.h>
 
 #include <lore/archive/all_individuals.h>
+#include <lore/archive/atomic_file.h>
 #include <lore/archive/checkpoint.h>
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
 #include <lore/core/error.h>
 #include <lore/experiment/manifest.h>
+#include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 namespace lore {
 
@@ -24,13 +28,15 @@ std::string verify_container(std::string const& path) {
     switch (kind) {
     case FileKind::lineage: {
         LineageArchive const lineage = read_lineage(path);
-        return fmt::format("lineage archive of {} individuals, generation {}", lineage.births.size(), lineage.generation);
+        return fmt::format("lineage archive of {} individuals, generation {}", lineage.births.size(),
+                           lineage.generation);
     }
     case FileKind::checkpoint: {
         Checkpoint const checkpoint = unpack_checkpoint(read_container(path, kind), path);
         return fmt::format("checkpoint of generation {}", checkpoint.state.population.generation);
     }
-    case FileKind::knowledge_base: return fmt::format("knowledge base of {} features", read_knowledge_base(path).size());
+    case FileKind::knowledge_base:
+        return fmt::format("knowledge base of {} features", read_knowledge_base(path).size());
     case FileKind::all_individuals: {
         AllIndividualsSummary const all = check_all_individuals(path);
         return fmt::format("archive of all {} individuals, {} generations", all.individuals, all.generations);
@@ -44,26 +50,76 @@ std::string verify_manifest(std::string const& path) {
     Manifest const manifest = read_manifest(path);
     std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
     for (FileRecord const& output : manifest.outputs) {
+        if (!std::filesystem::exists(directory / output.path))
+            throw Error(fmt::format("{} is missing", (directory / output.path).string()),
+                        fmt::format("{} lists it", path), "Resume the run, or take a copy that is whole.");
         FileRecord const found = record_of(output.role, (directory / output.path).string(), output.path);
         if (found.bytes != output.bytes || found.checksum != output.checksum)
             throw Error(fmt::format("{} is not as {} lists it", (directory / output.path).string(), path),
-                        fmt::format("{} bytes with checksum {}, not {} with {}", found.bytes, found.checksum, output.bytes, output.checksum),
+                        fmt::format("{} bytes with checksum {}, not {} with {}", found.bytes, found.checksum,
+                                    output.bytes, output.checksum),
                         "It was changed since; take a copy that is whole.");
     }
     return fmt::format("manifest of a run ({}), {} outputs as listed", name(manifest.status), manifest.outputs.size());
 }
 
+/// Which of its tasks a run's arena serves stands in the configuration beside it.
+std::string verify_arena(std::string const& path) {
+    std::filesystem::path const config = std::filesystem::path{path}.replace_filename(run_file::config);
+    if (!std::filesystem::exists(config))
+        throw Error(fmt::format("cannot verify {}", path), fmt::format("there is no {} beside it", run_file::config),
+                    "Verify it in the directory of its run.");
+    std::string const task = read_config(config.string()).task;
+    load_arena(path, task);
+    return fmt::format("arena with a task '{}'", task);
+}
+
+std::string verify_json(std::string const& path) {
+    std::vector<std::byte> const bytes = read_file(path);
+    auto const* const text = reinterpret_cast<char const*>(bytes.data());
+    if (!nlohmann::json::accept(text, text + bytes.size()))
+        throw Error(fmt::format("cannot read {}", path), "it is no JSON document", "Take a copy that is whole.");
+    return "JSON document";
+}
+
+/// Rows as long as the header, the last one ended: a table that was cut is told by it, but not one that was edited.
+std::string verify_table(std::string const& path) {
+    std::vector<std::byte> const bytes = read_file(path);
+    std::string_view const text{reinterpret_cast<char const*>(bytes.data()), bytes.size()};
+    auto const refuse = [&](std::string const& reason) {
+        throw Error(fmt::format("cannot read {}", path), reason, "Take a copy that is whole.");
+    };
+    if (text.empty() || text.back() != '\n') refuse("its last line was cut");
+    std::size_t columns = 0, lines = 0;
+    for (std::size_t start = 0; start < text.size(); ++lines) {
+        std::size_t const end = text.find('\n', start);
+        std::string_view const line = text.substr(start, end - start);
+        auto const fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+        if (lines == 0) columns = fields;
+        if (fields != columns) refuse(fmt::format("line {} has {} columns, its header {}", lines + 1, fields, columns));
+        start = end + 1;
+    }
+    return fmt::format("table of {} rows", lines - 1);
+}
+
 std::string verify_directory(std::string const& path) {
-    constexpr std::array known{run_file::config, run_file::lineage, run_file::all_individuals, run_file::checkpoint,
-                               run_file::older_checkpoint, run_file::failed_genome, run_file::manifest};
+    constexpr std::array always{run_file::config, run_file::arena, run_file::manifest};
+    constexpr std::array known{run_file::config, run_file::arena, run_file::progress, run_file::lineage,
+                               run_file::all_individuals, run_file::checkpoint, run_file::older_checkpoint,
+                               run_file::failed_genome, run_file::manifest};
+    auto const is_there = [&](char const* file) { return std::filesystem::exists(std::filesystem::path{path} / file); };
+    if (std::none_of(known.begin(), known.end(), is_there))
+        throw Error(fmt::format("cannot verify {}", path), "no run is in this directory", "Check the path.");
+    for (char const* const file : always)
+        if (!is_there(file))
+            throw Error(fmt::format("the run in {} is not whole", path), fmt::format("there is no {}", file),
+                        "Take a copy that is whole.");
     std::vector<std::string> whole;
     for (char const* const file : known) {
-        std::filesystem::path const there = std::filesystem::path{path} / file;
-        if (!std::filesystem::exists(there)) continue;
-        verify(there.string());
+        if (!is_there(file)) continue;
+        verify((std::filesystem::path{path} / file).string());
         whole.emplace_back(file);
     }
-    if (whole.empty()) throw Error(fmt::format("cannot verify {}", path), "no run is in this directory", "Check the path.");
     return fmt::format("run directory with {}", fmt::join(whole, ", "));
 }
 
@@ -72,12 +128,18 @@ std::string verify_directory(std::string const& path) {
 std::string verify(std::string const& path) {
     std::filesystem::path const file{path};
     if (std::filesystem::is_directory(file)) return verify_directory(path);
-    if (file.extension() == ".npy") return fmt::format("NPY array of shape ({})", fmt::join(read_npy(path).shape, ", "));
+    if (file.extension() == ".npy")
+        return fmt::format("NPY array of shape ({})", fmt::join(read_npy(path).shape, ", "));
     if (file.filename() == run_file::manifest) return verify_manifest(path);
     if (file.filename() == run_file::config) {
         read_config(path);
         return "configuration of a run";
     }
+    if (file.filename() == run_file::arena) return verify_arena(path);
+    if (file.filename() == run_file::progress)
+        return fmt::format("progress of {} generations", read_progress(path).size());
+    if (file.extension() == ".csv") return verify_table(path);
+    if (file.extension() == ".json") return verify_json(path);
     return verify_container(path);
 }
 

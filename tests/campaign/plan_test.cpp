@@ -85,7 +85,9 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("order = [\"none\", ", "order = [").find("every treatment once"), std::string::npos);
     EXPECT_NE(complaint("config = \"target.toml\"", "config = \"target.tml\"").find("target.tml"), std::string::npos);
     EXPECT_NE(complaint("generations = 20", "generatons = 20").find("Did you mean 'generations'"), std::string::npos);
-    EXPECT_NE(complaint("runs = 4", "set = [\"evolution.popultion=3\"]").find("population"), std::string::npos);
+    std::string const misspelt = complaint("runs = 4", "set = [\"evolution.popultion=3\"]");
+    EXPECT_NE(misspelt.find("campaign.toml, line 7: source.set ("), std::string::npos) << misspelt;
+    EXPECT_NE(misspelt.find("population"), std::string::npos) << misspelt;
 }
 
 TEST_F(Campaign, has_runs_read_the_windows_of_their_base) {

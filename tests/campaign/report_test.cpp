@@ -57,6 +57,17 @@ TEST_F(Report, works_over_an_unfinished_campaign_and_says_so) {
     EXPECT_NE(made("report.html").find("not complete"), std::string::npos);
 }
 
+TEST_F(Report, keeps_no_figure_of_a_former_one) {
+    RunnerOptions some = options();
+    some.only = {"source"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    std::filesystem::create_directories(scratch.file("c/figures"));
+    write("c/figures/figure5.svg", "of a campaign with other bases");
+    write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
+    EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3.svg")));
+}
+
 TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());

@@ -3,6 +3,8 @@
 #include <lore/archive/all_individuals.h>
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/lineage_file.h>
+#include <lore/experiment/manifest.h>
+#include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
 
 #include <filesystem>
@@ -11,7 +13,7 @@
 namespace lore::test {
 
 /// Evolves a handful of individuals for a few short generations in this process, and leaves in `directory` what
-/// lore-evolve would: configuration, lineage, and all individuals.
+/// lore-evolve would, but for checkpoints.
 inline void write_small_run(std::string const& directory, std::uint64_t seed = 1) {
     std::filesystem::create_directories(directory);
     auto const file = [&](char const* name) { return (std::filesystem::path{directory} / name).string(); };
@@ -22,14 +24,21 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
     config.evolution.generations = 6;
     config.evolution.diversity.period = 2;
     write_file_atomically(file(run_file::config), to_toml(config));
+    write_file_atomically(file(run_file::arena), std::string_view{arena_text(config.arena)});
+    ProgressWriter progress{file(run_file::progress), 0};
     SerialEvaluator evaluator{{load_arena(config.arena, config.task), config.episode, std::nullopt}};
     AllIndividualsWriter everybody{file(run_file::all_individuals)};
     EvolutionState const end = evolve(config.evolution, seed, evaluator, {}, [&](GenerationReport const& report) {
         everybody.add(report);
+        progress.add(row_of(report));
         return true;
     });
     everybody.finish();
     write_lineage(file(run_file::lineage), end.population);
+    Manifest manifest;
+    manifest.status = RunStatus::done;
+    manifest.outputs.push_back(record_of("output", file(run_file::lineage), run_file::lineage));
+    write_manifest(file(run_file::manifest), manifest);
 }
 
 } // namespace lore::test

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 using namespace lore;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
@@ -21,7 +22,7 @@ protected:
 TEST_F(LoreCampaignTest, compares_two_columns) {
     // Of ten ways to choose the two that rank lowest among five, one is this far to the left, and one to the right.
     write("low.csv", "1\n2\n");
-    write("high.csv", "3\r\n\n4\n5e0 \n");
+    write("high.csv", " 3\r\n\n4\n5e0 \n");
     EXPECT_EQ(run("test low.csv high.csv").output, "U 0 p 0.2 A12 0\n");
     EXPECT_THAT(run("test high.csv low.csv").output, MatchesRegex("U 6 p 0\\.(2|19999999.*) A12 1\n"));
     EXPECT_EQ(run("test low.csv high.csv --interval").output, "U 0 p 0.2 A12 0 0 .. 0\n");
@@ -38,6 +39,35 @@ TEST_F(LoreCampaignTest, compares_two_columns) {
     EXPECT_LT(low, 0.25);
     EXPECT_GT(high, 0.25);
     EXPECT_LE(high, 1);
+}
+
+TEST_F(LoreCampaignTest, says_so_where_its_output_is_lost) {
+    write("a.csv", "1\n2\n");
+    for (char const* what : {"test a.csv a.csv > /dev/full", "--version > /dev/full", "--help > /dev/full"}) {
+        test::Ran const ran = run(what);
+        EXPECT_EQ(ran.exit_code, 1) << what;
+        EXPECT_THAT(ran.errors, HasSubstr("cannot write the result to stdout")) << what;
+    }
+}
+
+TEST_F(LoreCampaignTest, tells_what_a_missing_step_waits_for) {
+    std::string const jobs = LORE_SOURCE_DIR "/jobs/";
+    std::string const told = run("status " + jobs + "small.toml --dir c").output;
+    EXPECT_THAT(told, HasSubstr("source/001               missing      not started\n"));
+    EXPECT_THAT(told, HasSubstr("choose                   missing      waits for source\n"));
+    EXPECT_THAT(told, HasSubstr("kb1/001                  missing      waits for knowledge/kb1\n"));
+    EXPECT_THAT(told, HasSubstr("none/001                 missing      not started\n"));
+    EXPECT_THAT(run("status -q " + jobs + "small.toml --dir c").output, EndsWith(" missing\n"));
+}
+
+TEST_F(LoreCampaignTest, refuses_time_limits_that_are_none) {
+    std::string const submit =
+        std::string{"submit "} + LORE_SOURCE_DIR "/jobs/small.toml --only-write --dir never --time ";
+    expect_refusal(submit + "abc", 2, "it is no time");
+    expect_refusal(submit + "00:02:00", 2, "told to stop 120 s before it");
+    expect_refusal(submit + "2", 2, "told to stop 120 s before it");
+    for (char const* good : {"00:02:01", "3", "1-00", "1-02:03", "0-00:02:01", "UNLIMITED"})
+        expect_done(std::string{"submit "} + LORE_SOURCE_DIR "/jobs/small.toml --only-write -q --dir c --time " + good);
 }
 
 TEST_F(LoreCampaignTest, says_what_is_no_sample) {

@@ -44,8 +44,35 @@ TEST_F(LoreKb, builds_tells_and_verifies) {
     EXPECT_EQ(told.at("provenance").at("kind"), "lineage");
     EXPECT_THAT(run("info kb.lorekb").output, HasSubstr("features     " + std::to_string(base.size())));
 
-    for (char const* file : {"kb.lorekb", "run/lineage.lore", "run/all.lore", "run/config.toml", "run"})
+    expect_done("export kb.lorekb --npy kb");
+    expect_done("export kb.lorekb --csv kb.csv");
+    for (char const* file : {"kb.lorekb", "run/lineage.lore", "run/all.lore", "run/config.toml", "run/arena.toml",
+                             "run/progress.csv", "run", "kb/counts.npy", "kb/provenance.json", "kb.csv"})
         EXPECT_THAT(run(std::string{"verify "} + file).output, HasSubstr("whole")) << file;
+    std::filesystem::resize_file(scratch.file("kb.csv"), std::filesystem::file_size(scratch.file("kb.csv")) - 9);
+    expect_refusal("verify kb.csv", 1, "its last line was cut");
+    std::filesystem::resize_file(scratch.file("kb/provenance.json"), 30);
+    expect_refusal("verify kb/provenance.json", 1, "no JSON document");
+    for (char const* file : {"lineage.lore", "arena.toml"}) {
+        std::filesystem::rename(scratch.file(std::string{"run/"} + file), scratch.file("aside"));
+        expect_refusal("verify run", 1, std::string{file});
+        std::filesystem::rename(scratch.file("aside"), scratch.file(std::string{"run/"} + file));
+    }
+}
+
+TEST_F(LoreKb, refuses_windows_and_bounds_that_nothing_could_read) {
+    expect_refusal("build run --window-length 401 --out never", 2, "an evaluation of this run has 400");
+    expect_refusal("build run --window-length 4001 --out never", 2, "4000");
+    expect_refusal("build run --threshold nan --out never", 2, "'nan' is no number");
+    expect_refusal("build run --all --individual 6.0 --out never", 2, "--all takes everybody");
+    expect_refusal("query kb.lorekb --windows w.npy --individual 6.0 --csv never", 2, "--individual is of a run");
+    expect_refusal("build run --out ''", 2, "--out is empty");
+    expect_refusal("biuld run --out never", 2, "'biuld' was not expected");
+    expect_done("build run --out kb.lorekb");
+    expect_refusal("reduce kb.lorekb --top 0 --out never", 2, "--top");
+    expect_refusal("reduce kb.lorekb --top -1 --out never", 2, "not in range 1 to 1000000000");
+    expect_refusal("reduce kb.lorekb --min-value nan --out never", 2, "'nan' is no number");
+    expect_refusal("randomize kb.lorekb --seed -1 --out never", 2, "no whole number from 0");
 }
 
 TEST_F(LoreKb, builds_from_everybody_and_from_another_individual) {
@@ -89,7 +116,8 @@ TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
     expect_done("export kb.lorekb --npy exported");
     expect_done("query kb.lorekb --windows exported/features.npy --csv found.csv --index exact");
     std::vector<std::string> const lines = lines_of("found.csv");
-    for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_THAT(lines[i], HasSubstr(std::to_string(i - 1) + ",0,"));   // itself, at distance 0
+    for (std::size_t i = 1; i < lines.size(); ++i)
+        EXPECT_THAT(lines[i], HasSubstr(std::to_string(i - 1) + ",0,"));   // itself, at distance 0
     expect_done("export kb.lorekb --csv kb.csv");
     EXPECT_EQ(lines_of("kb.csv").size(), lines.size());
 }

@@ -10,6 +10,7 @@
 
 #include <lore/archive/knowledge_file.h>
 #include <lore/core/error.h>
+#include <lore/experiment/version.h>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -47,8 +48,33 @@ int count_in(std::string_view text) {
 
 } // namespace
 
+constexpr char help_text[] = R"(Benchmarks of every hot path.
+
+Examples:
+  lore-bench --benchmark_list_tests
+  lore-bench --benchmark_filter=knowledge/query --benchmark_repetitions=5
+  lore-bench --write_knowledge=base.lorekb --individuals=600    the knowledge base that the benchmarks ask
+
+Options:
+  --version            of Lore
+  --write_knowledge=FILE, --individuals=N
+  --benchmark_...      of Google Benchmark:
+
+)";
+
 int main(int argc, char** argv) {
     try {
+        for (int i = 1; i < argc; ++i) {
+            std::string_view const argument{argv[i]};
+            if (argument == "--version") {
+                fmt::print("{}\n", lore::version_text("lore-bench"));
+                return 0;
+            }
+            if (argument == "--help") {
+                fmt::print("{}", help_text);
+                std::fflush(stdout);
+            }
+        }
         std::string_view const path = take_option("--write_knowledge=", argc, argv);
         std::string_view const individuals = take_option("--individuals=", argc, argv);
         if (!path.empty()) {

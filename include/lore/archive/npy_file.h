@@ -15,8 +15,8 @@ struct NpyArray {
     std::vector<float> values;   ///< row-major
 };
 
-/// Reads little-endian float32 ("<f4") or float64 ("<f8", rounded to float) in C order, all values finite.
-/// Throws Error: missing, cut, too long, not NPY, another type or order, NaN or infinity.
+/// Reads little-endian float32 ("<f4"), float64 ("<f8") or uint32 ("<u4", both rounded to float) in C order, all
+/// finite. Throws Error: missing, cut, too long, not NPY, another type or order, NaN or infinity.
 NpyArray read_npy(std::string const& path);
 
 /// Atomic; throws Error. Precondition: the product of `shape` is values.size().

@@ -12,7 +12,8 @@ namespace lore {
 /// One run, completely: a treatment is a value, not a build.
 struct ExperimentConfig {
     std::string name = "source";        ///< of the treatment, for people
-    std::string arena = "collectball";  ///< built-in arena's name, or a path (relative to the configuration file)
+    std::string arena = "collectball";  ///< built-in arena's name, or a path, relative to the configuration file;
+                                       ///< in an override, to the working directory
     std::string task = "source";        ///< one of the arena's tasks
     EpisodeConfig episode;
     EvolutionConfig evolution;

@@ -9,9 +9,11 @@
 
 namespace lore {
 
+inline constexpr int longest_window = 4000;   ///< [steps]: an evaluation of the paper
+
 /// How windows are cut and matched.
 struct KnowledgeConfig {
-    int   window_length   = 20;     ///< Steps per window [steps]. Paper: T = 20.
+    int   window_length   = 20;     ///< Steps per window, 1 to longest_window [steps]. Paper: T = 20.
     float match_threshold =
         1.83f;   ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
 
