@@ -1,7 +1,7 @@
 // Runs a whole campaign: source runs, knowledge bases, target runs, figures.
 //
-//   lore-campaign run    jobs/small.toml --dir runs/small
-//   lore-campaign report jobs/small.toml --dir runs/small
+//   lore-campaign run    jobs/campaigns/small.toml --dir runs/small
+//   lore-campaign report jobs/campaigns/small.toml --dir runs/small
 //
 // The first works through everything and can be stopped and called again; the second writes runs/small/report.html.
 // docs/campaigns.md is the how-to, docs/cluster.md the one for batch systems.
@@ -39,7 +39,7 @@ using namespace lore;
 struct Arguments {
     std::string file, directory;
     RunnerOptions runner;
-    std::string time_limit;      ///< of `submit`
+    std::string time_limit;   ///< of `submit`
     int concurrent = 0;
     std::vector<std::string> cluster_options;
     bool only_write = false;
@@ -156,11 +156,11 @@ int run(int argc, char** argv) {
     CLI::App app{
         "Runs campaigns from one file: source runs, knowledge bases, target runs, report.\n\n"
         "Examples:\n"
-        "  lore-campaign plan   jobs/paper.toml --dir runs/paper           what will be done\n"
-        "  lore-campaign run    jobs/paper.toml --dir runs/paper --jobs 8  do it here, eight runs at a time\n"
-        "  lore-campaign submit jobs/paper.toml --dir runs/paper           do it on a Slurm cluster\n"
-        "  lore-campaign report jobs/paper.toml --dir runs/paper           runs/paper/report.html\n"
-        "  lore-campaign status jobs/paper.toml --dir runs/paper           how far it has come\n"
+        "  lore-campaign plan   jobs/campaigns/paper.toml --dir runs/paper           what will be done\n"
+        "  lore-campaign run    jobs/campaigns/paper.toml --dir runs/paper --jobs 8  do it here, eight runs at a time\n"
+        "  lore-campaign submit jobs/campaigns/paper.toml --dir runs/paper           do it on a Slurm cluster\n"
+        "  lore-campaign report jobs/campaigns/paper.toml --dir runs/paper           runs/paper/report.html\n"
+        "  lore-campaign status jobs/campaigns/paper.toml --dir runs/paper           how far it has come\n"
         "  lore-campaign test   a.csv b.csv                                compare two columns of numbers\n\n"
         "Exit codes: 0 done, 1 something failed, 2 command line or campaign file, 75 interrupted: call it again.",
         "lore-campaign"};
@@ -171,7 +171,7 @@ int run(int argc, char** argv) {
 
     auto const on_campaign = [&](std::string const& name, std::string const& what) {
         CLI::App* const command = app.add_subcommand(name, what);
-        command->add_option("FILE", arguments.file, "the campaign, such as jobs/paper.toml")->required();
+        command->add_option("FILE", arguments.file, "the campaign, such as jobs/campaigns/paper.toml")->required();
         command->add_option("--dir", arguments.directory, "where its runs and results lie")->required();
         return command;
     };
@@ -241,7 +241,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::usage);
 }
 
-} // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     return lore::run_program("lore-campaign", [&] { return run(argc, argv); });

@@ -1,7 +1,7 @@
 // Evolves controllers on a task, alone or on many ranks:
 //
-//   lore-evolve jobs/source.toml --seed 7 --out runs/source/007
-//   mpirun -n 2 lore-evolve jobs/target.toml --kb kb1.lorekb --seed 7 --out runs/kb1/007
+//   lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
+//   mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --seed 7 --out runs/kb1/007
 //
 // Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/formats.md), and prints
 // the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
@@ -27,12 +27,13 @@ namespace {
 using namespace lore;
 
 constexpr char examples[] = R"(Examples:
-  lore-evolve jobs/source.toml --seed 7 --out runs/source/007
-  mpirun -n 2 lore-evolve jobs/source.toml --seed 7 --out runs/source/007 --resume
-  mpirun -n 2 lore-evolve jobs/target.toml --kb kb1.lorekb --out runs/kb1/001 --set evolution.generations=500
+  lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
+  mpirun -n 2 lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007 --resume
+  mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --out runs/kb1/001 --set evolution.generations=500
   lore-evolve --bench
 
-Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line or configuration, 1 any other failure.)";
+Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line or configuration,
+1 any other failure.)";
 
 /// "HH:MM:SS", "MM:SS" or seconds.
 double seconds_of(std::string const& text) {
@@ -78,11 +79,11 @@ ExitCode work(Session const& session, CommandLine& line) {
 
 /// Reads the command line; an exit code where there is nothing else to do (--help, or a mistake).
 std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& line) {
-    CLI::App app{"Evolves robot controllers (NSGA-II with dynamic behavioural diversity) and archives their lineages."};
+    CLI::App app{"Evolves robot controllers (NSGA-II with dynamic behavioral diversity) and archives their lineages."};
     app.name("lore-evolve");
     app.footer(examples);
     app.set_version_flag("--version", [] { return version_text("lore-evolve"); });
-    app.add_option("config", line.run.config_path, "the run's configuration, such as jobs/source.toml");
+    app.add_option("config", line.run.config_path, "the run's configuration, such as jobs/tasks/source.toml");
     app.add_option("--out", line.run.directory, "directory to write into; made if it is not there")->type_name("DIR");
     std::uint64_t seed = 1;
     auto* const seed_option =
@@ -95,7 +96,8 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
     app.add_option("--archive", line.archive, "keep the ancestors of the last population, or everybody ever evaluated")
-        ->check(CLI::IsMember({"lineage", "all"}))->type_name("lineage|all");
+        ->check(CLI::IsMember({"lineage", "all"}))
+        ->type_name("lineage|all");
     app.add_flag("--bench", line.bench, "print the signature of a small fixed run and the steps simulated per second");
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
@@ -104,7 +106,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     if (line.run.directory.empty())
         throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");
     if (line.run.config_path.empty() && !line.run.resume)
-        throw UsageError("no configuration", "the file's name is missing", "Name one, such as jobs/source.toml.");
+        throw UsageError("no configuration", "the file's name is missing", "Name one, such as jobs/tasks/source.toml.");
     if (!line.max_time.empty()) line.run.max_seconds = seconds_of(line.max_time);
     line.run.archive_all = line.archive == "all";
     line.run.command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
@@ -135,7 +137,7 @@ int complain(std::string_view what, ExitCode code) {
     return static_cast<int>(code);
 }
 
-} // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     int status = 0;
@@ -147,7 +149,10 @@ int main(int argc, char** argv) {
             if (session.rank() == 0) status = static_cast<int>(direct(session, argc, argv));
             else work_for_rank_0(session);
         } catch (Error const& error) {
-            if (session.rank() != 0) { complain(error.what(), error.exit_code()); session.abort(1); }
+            if (session.rank() != 0) {
+                complain(error.what(), error.exit_code());
+                session.abort(1);
+            }
             status = complain(error.what(), error.exit_code());
         } catch (std::bad_alloc const&) {
             complain(fmt::format("rank {} on {} ran out of memory", session.rank(), host_name()), ExitCode::failure);
@@ -159,8 +164,6 @@ int main(int argc, char** argv) {
         }
         if (!stdout_is_written() && status == 0)
             status = complain("cannot write the result to stdout", ExitCode::failure);
-    } catch (Error const& error) {
-        return complain(error.what(), error.exit_code());
-    }
+    } catch (Error const& error) { return complain(error.what(), error.exit_code()); }
     return status;
 }

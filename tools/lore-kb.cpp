@@ -3,7 +3,7 @@
 //   lore-kb build runs/s1 --out kb1.lorekb
 //   lore-kb info kb1.lorekb
 //
-// The first simulates the lineage of the best individual of runs/s1 again and writes its behavioural features with
+// The first simulates the lineage of the best individual of runs/s1 again and writes its behavioral features with
 // their values; the second shows what came out. docs/formats.md has the columns of the CSV files.
 
 #include "program.h"
@@ -43,16 +43,16 @@ using namespace lore;
 struct Arguments {
     std::string command_line;
     bool quiet = false;
-    std::string input;                   ///< RUN_DIR, KB or FILE
-    std::vector<std::string> inputs;     ///< KB KB...
+    std::string input;                 ///< RUN_DIR, KB or FILE
+    std::vector<std::string> inputs;   ///< KB KB...
     std::string out, csv, npy, run, windows, individual = "best", index = "exact";
     std::vector<std::string> consensus;
     KnowledgeConfig config;
     bool window_length_given = false, threshold_given = false, individual_given = false;
     bool all = false, json = false;
-    int every = 1;                       ///< of all
+    int every = 1;   ///< of all
     std::uint64_t seed = 0;
-    std::optional<int> top, least_count; ///< of reduce
+    std::optional<int> top, least_count;   ///< of reduce
     std::optional<double> least_value;
 };
 
@@ -173,8 +173,7 @@ void query(Arguments const& arguments) {
         if (match.found())
             fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{}\n", row, row * length, match.feature,
                            std::sqrt(match.squared_distance), base.value(match.feature), base.count(match.feature));
-        else
-            fmt::format_to(std::back_inserter(csv), "{},{},-1,inf,-1,0\n", row, row * length);
+        else fmt::format_to(std::back_inserter(csv), "{},{},-1,inf,-1,0\n", row, row * length);
         ++row;
     }
     write_file_atomically(arguments.csv, csv);
@@ -267,17 +266,18 @@ void export_base(Arguments const& arguments) {
 }
 
 /// CLI11 reads "nan" as a number within any range.
-CLI::Validator const a_number{
-    [](std::string& text) {
-        return std::isnan(std::strtod(text.c_str(), nullptr)) ? fmt::format("'{}' is no number", text) : std::string{};
-    },
-    ""};
+CLI::Validator const a_number{[](std::string& text) {
+                                  return std::isnan(std::strtod(text.c_str(), nullptr))
+                                             ? fmt::format("'{}' is no number", text)
+                                             : std::string{};
+                              },
+                              ""};
 
 int run(int argc, char** argv) {
     Arguments arguments;
     arguments.command_line = fmt::format("lore-kb {}", fmt::join(argv + 1, argv + argc, " "));
     CLI::App app{
-        "Builds, asks and derives knowledge bases: behavioural features and the rewards of those who showed them.",
+        "Builds, asks and derives knowledge bases: behavioral features and the rewards of those who showed them.",
         "lore-kb"};
     app.footer(
         "Examples:\n"
@@ -315,7 +315,10 @@ int run(int argc, char** argv) {
         to->add_option("--individual", "'best', or GENERATION.SLOT")
             ->type_name("ID")
             ->default_str("best")
-            ->each([&](std::string const& id) { arguments.individual = id; arguments.individual_given = true; });
+            ->each([&](std::string const& id) {
+                arguments.individual = id;
+                arguments.individual_given = true;
+            });
     };
 
     CLI::App* const building = command("build", "Build a knowledge base from a run", build);
@@ -365,8 +368,7 @@ int run(int argc, char** argv) {
     CLI::App* const reducing = command("reduce", "Keep some of the features", reduce);
     add_base(reducing);
     reducing->add_option("--top", arguments.top, "this many of highest value")->check(CLI::Range(1, 1000000000));
-    reducing->add_option("--min-value", arguments.least_value, "those of at least this value")
-        ->check(a_number);
+    reducing->add_option("--min-value", arguments.least_value, "those of at least this value")->check(a_number);
     reducing->add_option("--min-count", arguments.least_count, "those that at least so many individuals have shown")
         ->check(CLI::Range(1, 1000000000));
     reducing->add_option("--consensus", arguments.consensus, "those that every one of these knowledge bases knows")
@@ -391,7 +393,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::done);
 }
 
-} // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     return lore::run_program("lore-kb", [&] { return run(argc, argv); });

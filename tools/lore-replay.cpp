@@ -3,7 +3,7 @@
 //   lore-replay runs/s1 --kb kb1.lorekb --out replay
 //   lore-replay --follow trace.csv.gz --task source --out followed.csv
 //
-// The first writes replay/trace.csv, and trajectory.svg and .png coloured by the knowledge base's values; the second
+// The first writes replay/trace.csv, and trajectory.svg and .png colored by the knowledge base's values; the second
 // takes a recorded trace and writes what Lore's simulation makes of each of its steps. docs/formats.md has the columns.
 
 #include "program.h"
@@ -124,7 +124,7 @@ void replay_run(Arguments const& arguments) {
         std::vector<std::string> names;
         for (std::string const& path : arguments.knowledge)
             names.push_back(std::filesystem::path(path).stem().string());
-        picture.title += fmt::format(", coloured by {}", fmt::join(names, " x "));
+        picture.title += fmt::format(", colored by {}", fmt::join(names, " x "));
         picture.values = std::move(values.values);
         picture.lowest = values.lowest;
         picture.highest = values.highest;
@@ -165,7 +165,7 @@ int run(int argc, char** argv) {
                  "lore-replay"};
     app.footer(
         "Examples:\n"
-        "  lore-replay runs/s1 --kb kb1.lorekb --out replay       best-of-run, coloured by the values of kb1 (figure "
+        "  lore-replay runs/s1 --kb kb1.lorekb --out replay       best-of-run, colored by the values of kb1 (figure "
         "5)\n"
         "  lore-replay runs/s1 --kb kb1.lorekb --kb kb2.lorekb --out replay   by the product of both (figure 6)\n"
         "  lore-replay runs/s1 --individual 312.17 --out replay   another ancestor of the last population\n"
@@ -178,7 +178,7 @@ int run(int argc, char** argv) {
                    "directory of a run; writes trace.csv and trajectory.svg, .png into --out");
     app.add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
     app.add_option("--kb", arguments.knowledge,
-                   "knowledge base whose values colour the trajectory; several: their product")
+                   "knowledge base whose values color the trajectory; several: their product")
         ->allow_extra_args(false);
     app.add_option("--actions", arguments.actions, "CSV with the columns a0, a1, a2: drives the robot open loop");
     app.add_option("--follow", arguments.follow,
@@ -211,7 +211,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::done);
 }
 
-} // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     return lore::run_program("lore-replay", [&] { return run(argc, argv); });

@@ -33,13 +33,9 @@ int run_program(char const* name, Run&& run) {
         int const code = run();
         if (!stdout_is_written()) return complain("cannot write the result to stdout", ExitCode::failure);
         return code;
-    } catch (Error const& error) {
-        return complain(error.what(), error.exit_code());
-    } catch (std::bad_alloc const&) {
+    } catch (Error const& error) { return complain(error.what(), error.exit_code()); } catch (std::bad_alloc const&) {
         return complain("out of memory", ExitCode::failure);
-    } catch (std::exception const& error) {
-        return complain(error.what(), ExitCode::failure);
-    }
+    } catch (std::exception const& error) { return complain(error.what(), ExitCode::failure); }
 }
 
 /// Decimal digits of 64 bits, for seeds: CLI11 alone reads 0x10, turns -1 into 2^64 - 1, and so does the rest of what
@@ -72,9 +68,7 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
         app.parse(argc, argv);
         refuse_empty_values(app);
         return std::nullopt;
-    } catch (CLI::Success const& help) {
-        return app.exit(help);
-    } catch (CLI::ParseError const& error) {
+    } catch (CLI::Success const& help) { return app.exit(help); } catch (CLI::ParseError const& error) {
         // What is missing is often there, misspelt.
         std::vector<std::string> const unknown = app.remaining(true);
         std::string const what = error.what();
@@ -85,4 +79,4 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
     }
 }
 
-} // namespace lore
+}   // namespace lore

@@ -29,11 +29,13 @@ struct FrameHeader {
     std::uint32_t generations;
     std::uint64_t raw_length;
     std::uint64_t stored_length;
-    std::uint64_t checksum;   ///< XXH3-64 of the header before this field and of the stored bytes, seeded by the frame before
+    std::uint64_t
+        checksum;   ///< XXH3-64 of the header before this field and of the stored bytes, seeded by the frame before
 };
 
 std::uint64_t checksum_of(FrameHeader const& header, std::span<std::byte const> stored, std::uint64_t former) {
-    return XXH3_64bits_withSeed(stored.data(), stored.size(), XXH3_64bits_withSeed(&header, offsetof(FrameHeader, checksum), former));
+    return XXH3_64bits_withSeed(stored.data(), stored.size(),
+                                XXH3_64bits_withSeed(&header, offsetof(FrameHeader, checksum), former));
 }
 
 /// What both sides know of a possible parent.
@@ -45,7 +47,8 @@ struct Known {
 using Pool = std::vector<Known>;
 
 std::size_t place_of(Pool const& pool, IndividualId id) {
-    auto const at = std::lower_bound(pool.begin(), pool.end(), id, [](Known const& known, IndividualId wanted) { return known.id < wanted; });
+    auto const at = std::lower_bound(pool.begin(), pool.end(), id,
+                                     [](Known const& known, IndividualId wanted) { return known.id < wanted; });
     assert(at != pool.end() && at->id == id);
     return static_cast<std::size_t>(at - pool.begin());
 }
@@ -60,7 +63,7 @@ Pool pool_of(std::span<Individual const> members) {
 /// The file's first bytes: an empty container, so that kind and version are where every file of Lore has them.
 Bytes file_head() { return seal(FileKind::all_individuals, {}, Packing::plain); }
 
-} // namespace
+}   // namespace
 
 struct AllIndividualsWriter::State {
     std::string path;
@@ -74,7 +77,8 @@ struct AllIndividualsWriter::State {
         Bytes const raw = gathered.take();
         gathered = {};
         Bytes frame(sizeof(FrameHeader) + ZSTD_compressBound(raw.size()));
-        std::size_t const packed = ZSTD_compress(frame.data() + sizeof(FrameHeader), frame.size() - sizeof(FrameHeader), raw.data(), raw.size(), zstd_level);
+        std::size_t const packed = ZSTD_compress(frame.data() + sizeof(FrameHeader), frame.size() - sizeof(FrameHeader),
+                                                 raw.data(), raw.size(), zstd_level);
         assert(!ZSTD_isError(packed));
         frame.resize(sizeof(FrameHeader) + packed);
         FrameHeader header{frame_mark, at.generations, raw.size(), packed, 0};
@@ -96,7 +100,8 @@ AllIndividualsWriter::AllIndividualsWriter(std::string path) : state_(std::make_
     state_->at.bytes = head.size();
 }
 
-AllIndividualsWriter::AllIndividualsWriter(std::string path, AllIndividualsMark const& mark, Population const& population)
+AllIndividualsWriter::AllIndividualsWriter(std::string path, AllIndividualsMark const& mark,
+                                           Population const& population)
     : state_(std::make_unique<State>()) {
     state_->path = std::move(path);
     state_->file = FileDescriptor{::open(state_->path.c_str(), O_WRONLY | O_CLOEXEC)};
@@ -107,7 +112,8 @@ AllIndividualsWriter::AllIndividualsWriter(std::string path, AllIndividualsMark 
         throw Error(fmt::format("cannot go on with {}", state_->path),
                     fmt::format("it has {} bytes, but the checkpoint was made at {}", status.st_size, mark.bytes),
                     "Start the run anew in another directory.");
-    if (::ftruncate(state_->file.get(), static_cast<off_t>(mark.bytes)) != 0 || ::lseek(state_->file.get(), 0, SEEK_END) < 0)
+    if (::ftruncate(state_->file.get(), static_cast<off_t>(mark.bytes)) != 0 ||
+        ::lseek(state_->file.get(), 0, SEEK_END) < 0)
         throw file_error("write", state_->path, errno);
     state_->at = mark;
     state_->gathered.put_all(std::span{mark.gathered});
@@ -187,7 +193,8 @@ public:
         if (header_.stored_length > left_) fail("the file was cut inside a frame");
         stored_.resize(header_.stored_length);
         read(stored_);
-        if (checksum_of(header_, stored_, chain_) != header_.checksum) fail("checksum mismatch: a frame was changed or lost");
+        if (checksum_of(header_, stored_, chain_) != header_.checksum)
+            fail("checksum mismatch: a frame was changed or lost");
         chain_ = header_.checksum;
         if (header_.raw_length > most_frame_bytes || !may_unpack_to(stored_, header_.raw_length))
             fail("a frame does not have the length that its header states");
@@ -230,11 +237,13 @@ public:
         while (!frames_.at_end() && (!through || next_generation_ <= *through)) {
             Bytes const frame = frames_.next();
             ByteReader in{frame, name_};
-            for (std::uint32_t g = 0; g < frames_.generations() && (!through || next_generation_ <= *through); ++g) generation(in, visit);
+            for (std::uint32_t g = 0; g < frames_.generations() && (!through || next_generation_ <= *through); ++g)
+                generation(in, visit);
             if (!through || next_generation_ <= *through) in.expect_end();
         }
         if (through && next_generation_ <= *through)
-            frames_.fail(fmt::format("the file ends with generation {}, but the run has reached {}", next_generation_ - 1, *through));
+            frames_.fail(fmt::format("the file ends with generation {}, but the run has reached {}",
+                                     next_generation_ - 1, *through));
     }
     AllIndividualsSummary summary() const { return {next_generation_, individuals_, frames_.bytes()}; }
 
@@ -252,7 +261,8 @@ private:
             Known child{{static_cast<std::uint32_t>(next_generation_), static_cast<std::uint32_t>(slot)},
                         get_difference(in, orphan ? nothing : pool_[parent].genome)};
             pool_.push_back(std::move(child));
-            visit({pool_.back().id, orphan ? std::nullopt : std::optional{pool_[parent].id}, pool_.back().genome, static_cast<int>(balls)});
+            visit({pool_.back().id, orphan ? std::nullopt : std::optional{pool_[parent].id}, pool_.back().genome,
+                   static_cast<int>(balls)});
         }
         auto const mask = in.get_all<std::uint8_t>((pool_.size() + 7) / 8);
         std::size_t kept = 0;
@@ -273,9 +283,10 @@ private:
     std::uint64_t individuals_ = 0;
 };
 
-} // namespace
+}   // namespace
 
-void for_each_individual(std::string const& path, int through, std::function<void(ArchivedIndividual const&)> const& visit) {
+void for_each_individual(std::string const& path, int through,
+                         std::function<void(ArchivedIndividual const&)> const& visit) {
     Replay{path}.run(through, visit);
 }
 
@@ -285,4 +296,4 @@ AllIndividualsSummary check_all_individuals(std::string const& path) {
     return replay.summary();
 }
 
-} // namespace lore
+}   // namespace lore

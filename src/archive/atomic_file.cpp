@@ -41,7 +41,9 @@ std::string_view remedy_for(int error_number) {
 struct Temporary {
     std::string path;
     bool kept = false;
-    ~Temporary() { if (!kept) ::unlink(path.c_str()); }
+    ~Temporary() {
+        if (!kept) ::unlink(path.c_str());
+    }
 };
 
 std::string name_beside(std::string const& path) { return fmt::format("{}{}{}", path, temporary_mark, ::getpid()); }
@@ -55,7 +57,7 @@ void write_durably(std::string const& temporary, BytePieces content, std::string
     if (!file.close()) throw file_error("write", path, errno);
 }
 
-} // namespace
+}   // namespace
 
 Error file_error(std::string_view verb, std::string const& path, int error_number) {
     return Error(fmt::format("cannot {} {}", verb, path), std::strerror(error_number), remedy_for(error_number));
@@ -143,4 +145,4 @@ void remove_leftovers(std::string const& directory) {
             std::filesystem::remove(entry.path(), ignored);
 }
 
-} // namespace lore
+}   // namespace lore

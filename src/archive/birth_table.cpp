@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t no_parent = UINT32_MAX;
 constexpr std::size_t least_bytes_a_birth = 48;   ///< id, parent, balls, shaping, diversity, two counts
 
-} // namespace
+}   // namespace
 
 void put_births(OutArchive& archive, std::vector<Birth const*> const& births) {
     std::uint64_t const count = births.size();
@@ -34,15 +34,17 @@ std::vector<std::shared_ptr<Birth const>> get_births(InArchive& archive) {
         std::int32_t balls = 0;
         archive >> birth->id >> parent >> balls >> birth->shaping >> birth->diversity >> birth->genome;
         if (parent != no_parent) {
-            if (parent >= i || births[parent]->id.generation >= birth->id.generation) archive.fail("an individual older than its parent");
+            if (parent >= i || births[parent]->id.generation >= birth->id.generation)
+                archive.fail("an individual older than its parent");
             birth->parent = births[parent];
         }
         if (i > 0 && !(births[i - 1]->id < birth->id)) archive.fail("individuals out of the order of birth");
-        if (balls < 0 || !std::isfinite(birth->shaping) || !std::isfinite(birth->diversity)) archive.fail("a value that no evaluation gives");
+        if (balls < 0 || !std::isfinite(birth->shaping) || !std::isfinite(birth->diversity))
+            archive.fail("a value that no evaluation gives");
         birth->balls = balls;
         births[i] = std::move(birth);
     }
     return births;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -19,8 +19,9 @@ std::vector<std::shared_ptr<Birth const>> get_births(InArchive&);
 /// Place of an id in a table in order of birth, or the table's size.
 template <class BirthPointer>
 std::size_t place_of(std::vector<BirthPointer> const& births, IndividualId id) {
-    auto const at = std::lower_bound(births.begin(), births.end(), id, [](auto const& birth, IndividualId wanted) { return birth->id < wanted; });
+    auto const at = std::lower_bound(births.begin(), births.end(), id,
+                                     [](auto const& birth, IndividualId wanted) { return birth->id < wanted; });
     return at != births.end() && (*at)->id == id ? static_cast<std::size_t>(at - births.begin()) : births.size();
 }
 
-} // namespace lore
+}   // namespace lore

@@ -83,9 +83,7 @@ void read_with_boost(std::span<std::byte const> payload, std::string_view name, 
         return;
     } catch (boost::archive::archive_exception const& error) {
         reason = error.what();
-    } catch (std::out_of_range const& error) {
-        reason = error.what();
-    } catch (std::length_error const&) {
+    } catch (std::out_of_range const& error) { reason = error.what(); } catch (std::length_error const&) {
         reason = "a length is out of range";
     }
     throw Error(fmt::format("cannot read {}", name), reason, "Take a copy that is whole, or make the file again.");
@@ -133,7 +131,7 @@ struct PackedEdge {
 };
 static_assert(sizeof(PackedEdge) == 6);
 
-} // namespace lore
+}   // namespace lore
 
 namespace boost::serialization {
 
@@ -162,7 +160,9 @@ inline void load(boost::archive::binary_iarchive& any, lore::Genome& genome, uns
 }
 
 template <class Archive>
-void serialize(Archive& archive, lore::IndividualId& id, unsigned) { archive & id.generation & id.slot; }
+void serialize(Archive& archive, lore::IndividualId& id, unsigned) {
+    archive& id.generation& id.slot;
+}
 
 inline void save(boost::archive::binary_oarchive& archive, lore::Descriptors const& descriptors, unsigned) {
     lore::put_blob(archive, descriptors.balls);
@@ -178,7 +178,7 @@ inline void load(boost::archive::binary_iarchive& any, lore::Descriptors& descri
     archive.load_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
 }
 
-} // namespace boost::serialization
+}   // namespace boost::serialization
 
 BOOST_SERIALIZATION_SPLIT_FREE(lore::Genome)
 BOOST_SERIALIZATION_SPLIT_FREE(lore::Descriptors)

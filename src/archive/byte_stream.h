@@ -18,9 +18,13 @@ concept Flat = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 class ByteWriter {
 public:
     template <Flat T>
-    void put(T const& value) { append(&value, sizeof value); }
+    void put(T const& value) {
+        append(&value, sizeof value);
+    }
     template <Flat T>
-    void put_all(std::span<T const> values) { append(values.data(), values.size_bytes()); }
+    void put_all(std::span<T const> values) {
+        append(values.data(), values.size_bytes());
+    }
     /// Little by little: 7 bits a byte, the lowest first.
     void put_varint(std::uint64_t value) {
         for (; value >= 0x80; value >>= 7) bytes_.push_back(static_cast<std::byte>(value | 0x80));
@@ -72,7 +76,9 @@ public:
         return static_cast<std::size_t>(count);
     }
     bool at_end() const { return rest_.empty(); }
-    void expect_end() const { if (!at_end()) fail("more follows than expected"); }
+    void expect_end() const {
+        if (!at_end()) fail("more follows than expected");
+    }
     [[noreturn]] void fail(std::string const& reason) const {
         throw Error("cannot read " + name_, reason, "Take a copy that is whole, or make it again.");
     }
@@ -88,4 +94,4 @@ private:
     std::string name_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -16,9 +16,12 @@ constexpr std::size_t least_bytes_a_member = 48;
 
 /// What measuring distances relies on.
 bool is_possible(Descriptors const& descriptors) {
-    return std::all_of(descriptors.path.begin(), descriptors.path.end(), [](Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }) &&
-           std::all_of(descriptors.balls.begin(), descriptors.balls.end(), [](Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }) &&
-           std::all_of(descriptors.entropies.begin(), descriptors.entropies.end(), [](double entropy) { return std::isfinite(entropy); });
+    return std::all_of(descriptors.path.begin(), descriptors.path.end(),
+                       [](Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }) &&
+           std::all_of(descriptors.balls.begin(), descriptors.balls.end(),
+                       [](Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }) &&
+           std::all_of(descriptors.entropies.begin(), descriptors.entropies.end(),
+                       [](double entropy) { return std::isfinite(entropy); });
 }
 
 /// All but the distances among the members: evolution measures them anew, which costs less than keeping them here.
@@ -54,26 +57,29 @@ Population get_population(InArchive& archive) {
         auto descriptors = std::make_shared<Descriptors>();
         archive >> place >> objectives >> member.diversity >> member.crowding >> *descriptors;
         archive.load_binary(member.objectives.value.data(), sizeof member.objectives.value);
-        if (place >= births.size() || objectives < 0 || objectives > 3 || std::isnan(member.crowding) || !std::isfinite(member.diversity)) archive.fail("a value is out of range");
+        if (place >= births.size() || objectives < 0 || objectives > 3 || std::isnan(member.crowding) ||
+            !std::isfinite(member.diversity))
+            archive.fail("a value is out of range");
         for (double const value : member.objectives.value)
             if (!std::isfinite(value)) archive.fail("an objective is not finite");
         member.birth = births[place];
         member.descriptors = std::move(descriptors);
         // Distances compare ball by ball, and sums of them decide who survives.
-        if (member.descriptors->balls.size() != population.members.front().descriptors->balls.size()) archive.fail("members saw different numbers of balls");
+        if (member.descriptors->balls.size() != population.members.front().descriptors->balls.size())
+            archive.fail("members saw different numbers of balls");
         if (!is_possible(*member.descriptors)) archive.fail("a descriptor that no evaluation gives");
         member.objectives.count = objectives;
     }
     return population;
 }
 
-} // namespace
+}   // namespace
 
 Bytes pack_checkpoint(Checkpoint const& checkpoint) {
     return write_with_boost([&](OutArchive& archive) {
         std::uint64_t const signature = checkpoint.state.signature.value();
-        archive << checkpoint.seed << checkpoint.config_digest << checkpoint.evaluations << checkpoint.steps << checkpoint.seconds
-                << checkpoint.progress_bytes << signature;
+        archive << checkpoint.seed << checkpoint.config_digest << checkpoint.evaluations << checkpoint.steps
+                << checkpoint.seconds << checkpoint.progress_bytes << signature;
         AllIndividualsMark const& mark = checkpoint.all_individuals;
         archive << mark.bytes << mark.chain << mark.generations;
         put_blob(archive, mark.gathered);
@@ -85,8 +91,8 @@ Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_vie
     Checkpoint checkpoint;
     read_with_boost(payload, name, [&](InArchive& archive) {
         std::uint64_t signature = 0;
-        archive >> checkpoint.seed >> checkpoint.config_digest >> checkpoint.evaluations >> checkpoint.steps >> checkpoint.seconds
-            >> checkpoint.progress_bytes >> signature;
+        archive >> checkpoint.seed >> checkpoint.config_digest >> checkpoint.evaluations >> checkpoint.steps >>
+            checkpoint.seconds >> checkpoint.progress_bytes >> signature;
         AllIndividualsMark& mark = checkpoint.all_individuals;
         archive >> mark.bytes >> mark.chain >> mark.generations;
         get_blob(archive, mark.gathered, SIZE_MAX);
@@ -108,16 +114,15 @@ FoundCheckpoint read_checkpoint(std::string const& path, std::string const& olde
         FoundCheckpoint found;
         try {
             found.checkpoint = unpack_checkpoint(read_container(older, FileKind::checkpoint), older);
-        } catch (Error const&) {
-            throw newer_fails;
-        }
+        } catch (Error const&) { throw newer_fails; }
         // The whole one takes the damaged one's place, or the next checkpoint would keep the damaged one and drop it.
         std::error_code failed;
         std::filesystem::rename(older, path, failed);
-        if (failed) throw Error(fmt::format("cannot go on from {}", older), failed.message(), "Make its directory writable.");
+        if (failed)
+            throw Error(fmt::format("cannot go on from {}", older), failed.message(), "Make its directory writable.");
         found.warning = fmt::format("{} Going on from the one before.", newer_fails.what());
         return found;
     }
 }
 
-} // namespace lore
+}   // namespace lore

@@ -33,4 +33,4 @@ std::uint64_t checksum_of_file(std::string const& path) {
 
 std::string checksum_text(std::uint64_t sum) { return fmt::format("{:016x}", sum); }
 
-} // namespace lore
+}   // namespace lore

@@ -120,7 +120,7 @@ Bytes unpack(std::span<std::byte const> stored, Header const& header, std::strin
     return std::move(*raw);
 }
 
-} // namespace
+}   // namespace
 
 std::string_view name(FileKind kind) {
     switch (kind) {
@@ -209,4 +209,4 @@ FileKind kind_of_file(std::string const& path) {
     return static_cast<FileKind>(header_of({start, static_cast<std::size_t>(got)}, path).kind);
 }
 
-} // namespace lore
+}   // namespace lore

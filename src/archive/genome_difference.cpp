@@ -28,8 +28,8 @@ struct Alignment {
     std::size_t appended_from = 0;   ///< index into the child's edges
 };
 
-/// Walks both lists. The parent's edge is gone if the child's present one is the parent's next; it is rewired if the two
-/// that follow are equal again, or the lists end here.
+/// Walks both lists. The parent's edge is gone if the child's present one is the parent's next; it is rewired if the
+/// two that follow are equal again, or the lists end here.
 Alignment align(std::vector<Edge> const& parent, std::vector<Edge> const& child) {
     Alignment found;
     std::size_t j = 0;
@@ -124,7 +124,7 @@ Genome get_changes(ByteReader& in, Genome const& parent) {
     return child;
 }
 
-} // namespace
+}   // namespace
 
 void put_difference(ByteWriter& out, Genome const& parent, Genome const& child) {
     ByteWriter changes;
@@ -159,4 +159,4 @@ Genome get_difference(ByteReader& in, Genome const& parent) {
     return child;
 }
 
-} // namespace lore
+}   // namespace lore

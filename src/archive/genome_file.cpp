@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::size_t longest_reason = 65536;
 
-} // namespace
+}   // namespace
 
 void write_genome(std::string const& path, FailedIndividual const& failed) {
     write_container(path, FileKind::genome, write_with_boost([&](OutArchive& archive) {
-        std::int32_t const rank = failed.rank;
-        std::vector<char> const reason(failed.reason.begin(), failed.reason.end());
-        archive << failed.id << failed.genome << rank;
-        put_blob(archive, reason);
-    }));
+                        std::int32_t const rank = failed.rank;
+                        std::vector<char> const reason(failed.reason.begin(), failed.reason.end());
+                        archive << failed.id << failed.genome << rank;
+                        put_blob(archive, reason);
+                    }));
 }
 
 FailedIndividual read_genome(std::string const& path) {
@@ -32,4 +32,4 @@ FailedIndividual read_genome(std::string const& path) {
     return failed;
 }
 
-} // namespace lore
+}   // namespace lore

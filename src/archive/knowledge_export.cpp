@@ -24,16 +24,18 @@ std::array<float, channel_count> channels_at(Window const& window, std::size_t s
     return channels;
 }
 
-} // namespace
+}   // namespace
 
 std::string knowledge_csv(KnowledgeBase const& base) {
     std::string csv = "feature,value,reward_sum,count";
     auto const steps = static_cast<std::size_t>(base.config().window_length);
     for (std::size_t step = 0; step < steps; ++step)
-        for (std::string_view const channel : channel_names) fmt::format_to(std::back_inserter(csv), ",{}_{}", channel, step);
+        for (std::string_view const channel : channel_names)
+            fmt::format_to(std::back_inserter(csv), ",{}_{}", channel, step);
     csv += '\n';
     for (int feature = 0; feature < base.size(); ++feature) {
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{}", feature, base.value(feature), base.reward_sum(feature), base.count(feature));
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{}", feature, base.value(feature), base.reward_sum(feature),
+                       base.count(feature));
         Window const window = base.window(feature);
         for (std::size_t step = 0; step < steps; ++step)
             for (float const value : channels_at(window, step)) fmt::format_to(std::back_inserter(csv), ",{}", value);
@@ -45,7 +47,8 @@ std::string knowledge_csv(KnowledgeBase const& base) {
 void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
     std::error_code failed;
     std::filesystem::create_directories(directory, failed);
-    if (failed) throw Error(fmt::format("cannot make the directory {}", directory), failed.message(), "Choose another one.");
+    if (failed)
+        throw Error(fmt::format("cannot make the directory {}", directory), failed.message(), "Choose another one.");
     auto const file = [&](char const* name) { return (std::filesystem::path{directory} / name).string(); };
 
     auto const features = static_cast<std::size_t>(base.size());
@@ -71,7 +74,8 @@ Trace read_windows(std::string const& path, int window_length) {
     bool const in_a_row = array.shape.size() == 2 && array.shape[1] == steps * channel_count;
     if (!by_step && !in_a_row)
         throw Error(fmt::format("cannot read windows from {}", path),
-                    fmt::format("its shape is ({0}), not (n, {1}, {2}) or (n, {3})", fmt::join(array.shape, ", "), steps, channel_count, steps * channel_count),
+                    fmt::format("its shape is ({0}), not (n, {1}, {2}) or (n, {3})", fmt::join(array.shape, ", "),
+                                steps, channel_count, steps * channel_count),
                     "Reshape it to the knowledge base's window length.");
     Trace trace;
     std::size_t const rows = array.values.size() / channel_count;
@@ -93,4 +97,4 @@ Trace read_windows(std::string const& path, int window_length) {
     return trace;
 }
 
-} // namespace lore
+}   // namespace lore

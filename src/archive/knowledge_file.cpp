@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t layout_version = 1;
 constexpr std::uint64_t alignment = 64;
-constexpr std::uint64_t most_features = 1u << 30;       ///< a feature's number is an int
+constexpr std::uint64_t most_features = 1u << 30;   ///< a feature's number is an int
 
 /// The first bytes of the payload. The arrays follow in the order of Layout, the provenance as JSON at the end.
 struct Preamble {
@@ -75,7 +75,8 @@ Provenance provenance_of(std::string_view text) {
 /// The payload as pieces: arrays where they are, zeros between them.
 class PayloadPieces {
 public:
-    template <class T> void place(std::uint64_t at, std::span<T const> items) {
+    template <class T>
+    void place(std::uint64_t at, std::span<T const> items) {
         assert(at >= length_ && at - length_ < alignment);
         static constexpr std::byte zeros[alignment]{};
         pieces_.push_back({zeros, static_cast<std::size_t>(at - length_)});
@@ -89,7 +90,8 @@ private:
     std::uint64_t length_ = 0;
 };
 
-template <class T> std::span<T const> view(std::span<std::byte const> payload, std::uint64_t at, std::uint64_t count) {
+template <class T>
+std::span<T const> view(std::span<std::byte const> payload, std::uint64_t at, std::uint64_t count) {
     return {reinterpret_cast<T const*>(payload.data() + at), static_cast<std::size_t>(count)};
 }
 
@@ -138,13 +140,17 @@ std::string why_invalid(KnowledgeBase::Parts const& parts) {
     return "";
 }
 
-} // namespace
+}   // namespace
 
 std::string provenance_json(Provenance const& provenance) {
-    return nlohmann::ordered_json{{"made_by", provenance.made_by},         {"kind", provenance.kind},
-                                  {"index", provenance.index},             {"sources", provenance.sources},
-                                  {"derivation", provenance.derivation},   {"task", provenance.task},
-                                  {"individuals", provenance.individuals}, {"windows", provenance.windows},
+    return nlohmann::ordered_json{{"made_by", provenance.made_by},
+                                  {"kind", provenance.kind},
+                                  {"index", provenance.index},
+                                  {"sources", provenance.sources},
+                                  {"derivation", provenance.derivation},
+                                  {"task", provenance.task},
+                                  {"individuals", provenance.individuals},
+                                  {"windows", provenance.windows},
                                   {"best_balls", provenance.best_balls}}
         .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -179,22 +185,20 @@ KnowledgeBase read_knowledge_base(std::string const& path) {
     Preamble const preamble = checked_preamble(mapped.bytes, path);
     Layout const layout{preamble.features, preamble.window_length, preamble.provenance_length};
     std::uint64_t const steps = preamble.features * preamble.window_length;
-    KnowledgeBase::Parts parts{
-        {static_cast<int>(preamble.window_length), preamble.match_threshold}, {},
-        view<std::uint16_t>(mapped.bytes, layout.bits, steps),
-        view<float>(mapped.bytes, layout.windows, steps * continuous_count),
-        view<double>(mapped.bytes, layout.values, preamble.features),
-        view<double>(mapped.bytes, layout.reward_sums, preamble.features),
-        view<std::uint32_t>(mapped.bytes, layout.counts, preamble.features),
-        mapped.keep_alive};
+    KnowledgeBase::Parts parts{{static_cast<int>(preamble.window_length), preamble.match_threshold},
+                               {},
+                               view<std::uint16_t>(mapped.bytes, layout.bits, steps),
+                               view<float>(mapped.bytes, layout.windows, steps * continuous_count),
+                               view<double>(mapped.bytes, layout.values, preamble.features),
+                               view<double>(mapped.bytes, layout.reward_sums, preamble.features),
+                               view<std::uint32_t>(mapped.bytes, layout.counts, preamble.features),
+                               mapped.keep_alive};
     if (std::string const reason = why_invalid(parts); !reason.empty()) refuse(path, reason);
     try {
         auto const text = view<char>(mapped.bytes, layout.provenance, preamble.provenance_length);
         parts.provenance = provenance_of({text.data(), text.size()});
-    } catch (std::exception const&) {
-        refuse(path, "its provenance cannot be understood");
-    }
+    } catch (std::exception const&) { refuse(path, "its provenance cannot be understood"); }
     return KnowledgeBase{std::move(parts)};
 }
 
-} // namespace lore
+}   // namespace lore

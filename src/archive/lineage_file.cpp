@@ -9,26 +9,28 @@ namespace lore {
 std::shared_ptr<Birth const> LineageArchive::find(IndividualId id) const {
     std::size_t const place = place_of(births, id);
     if (place == births.size())
-        throw Error(fmt::format("no individual {}.{} in the lineage archive", id.generation, id.slot), "it has no living descendants",
-                    "Take an ancestor of the last population.");
+        throw Error(fmt::format("no individual {}.{} in the lineage archive", id.generation, id.slot),
+                    "it has no living descendants", "Take an ancestor of the last population.");
     return births[place];
 }
 
 void write_lineage(std::string const& path, Population const& population) {
     write_container(path, FileKind::lineage, write_with_boost([&](OutArchive& archive) {
-        put_births(archive, ancestors_of(population.members));
-        std::int32_t const generation = population.generation;
-        IndividualId const best = best_of_run(population).id();
-        std::uint64_t const count = population.members.size();
-        archive << generation << best << count;
-        for (Individual const& member : population.members) {
-            IndividualId const id = member.id();
-            archive << id;
-        }
-    }));
+                        put_births(archive, ancestors_of(population.members));
+                        std::int32_t const generation = population.generation;
+                        IndividualId const best = best_of_run(population).id();
+                        std::uint64_t const count = population.members.size();
+                        archive << generation << best << count;
+                        for (Individual const& member : population.members) {
+                            IndividualId const id = member.id();
+                            archive << id;
+                        }
+                    }));
 }
 
-LineageArchive read_lineage(std::string const& path) { return unpack_lineage(read_container(path, FileKind::lineage), path); }
+LineageArchive read_lineage(std::string const& path) {
+    return unpack_lineage(read_container(path, FileKind::lineage), path);
+}
 
 LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name) {
     LineageArchive lineage;
@@ -40,11 +42,13 @@ LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_vi
         lineage.last_population.resize(get_count(archive, sizeof(IndividualId)));
         for (IndividualId& id : lineage.last_population) {
             archive >> id;
-            if (place_of(lineage.births, id) == lineage.births.size()) archive.fail("a member of the last population is missing");
+            if (place_of(lineage.births, id) == lineage.births.size())
+                archive.fail("a member of the last population is missing");
         }
-        if (generation < 0 || place_of(lineage.births, lineage.best) == lineage.births.size()) archive.fail("the best-of-run is missing");
+        if (generation < 0 || place_of(lineage.births, lineage.best) == lineage.births.size())
+            archive.fail("the best-of-run is missing");
     });
     return lineage;
 }
 
-} // namespace lore
+}   // namespace lore

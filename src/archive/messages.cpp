@@ -53,7 +53,7 @@ std::vector<std::uint16_t> get_words(ByteReader& in) {
     return words;
 }
 
-} // namespace
+}   // namespace
 
 Bytes pack_genomes(std::span<Genome const* const> genomes) {
     ByteWriter out;
@@ -163,4 +163,4 @@ void unpack_distances(std::span<std::byte const> bytes, int first, int last, Dis
     in.expect_end();
 }
 
-} // namespace lore
+}   // namespace lore

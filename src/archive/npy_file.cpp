@@ -47,10 +47,16 @@ public:
         while (!take('}')) {
             std::string const key = string();
             if (!take(':')) return std::nullopt;
-            if (key == "descr") { header.descr = string(); seen |= 1; }
-            else if (key == "fortran_order") { header.fortran_order = word() == "True"; seen |= 2; }
-            else if (key == "shape") { if (!shape(header.shape)) return std::nullopt; seen |= 4; }
-            else return std::nullopt;
+            if (key == "descr") {
+                header.descr = string();
+                seen |= 1;
+            } else if (key == "fortran_order") {
+                header.fortran_order = word() == "True";
+                seen |= 2;
+            } else if (key == "shape") {
+                if (!shape(header.shape)) return std::nullopt;
+                seen |= 4;
+            } else return std::nullopt;
             if (!take(',') && peek() != '}') return std::nullopt;
         }
         if (peek() != '\0' || seen != 7) return std::nullopt;
@@ -100,7 +106,8 @@ private:
     std::size_t at_ = 0;
 };
 
-template <class Stored> std::vector<float> values_of(std::span<std::byte const> data, std::string const& path) {
+template <class Stored>
+std::vector<float> values_of(std::span<std::byte const> data, std::string const& path) {
     std::vector<float> values(data.size() / sizeof(Stored));
     for (std::size_t i = 0; i < values.size(); ++i) {
         Stored number;
@@ -133,7 +140,7 @@ void write_array(std::string const& path, std::span<T const> values, std::span<s
     write_file_atomically(path, std::string_view{file});
 }
 
-} // namespace
+}   // namespace
 
 NpyArray read_npy(std::string const& path) {
     std::vector<std::byte> const file = read_file(path);
@@ -181,4 +188,4 @@ void write_npy(std::string const& path, std::span<std::uint32_t const> values, s
     write_array(path, values, shape, "<u4");
 }
 
-} // namespace lore
+}   // namespace lore

@@ -17,12 +17,19 @@ public:
     explicit FileDescriptor(int number = -1) : number_(number) {}
     FileDescriptor(FileDescriptor&& other) noexcept : number_(other.release()) {}
     FileDescriptor& operator=(FileDescriptor&& other) noexcept {
-        if (this != &other) { close(); number_ = other.release(); }
+        if (this != &other) {
+            close();
+            number_ = other.release();
+        }
         return *this;
     }
     ~FileDescriptor() { close(); }
     int get() const { return number_; }
-    int release() { int const number = number_; number_ = -1; return number; }
+    int release() {
+        int const number = number_;
+        number_ = -1;
+        return number;
+    }
     /// False where the kernel reports a late write error.
     bool close() { return number_ < 0 || ::close(release()) == 0; }
 
@@ -39,4 +46,4 @@ void sync_file(int descriptor, std::string const& path);
 /// Makes a rename or a new name in it durable.
 void sync_directory_of(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

@@ -21,7 +21,9 @@ namespace {
 
 /// The whole file, uncompressed; zlib hands a file that is not gzip through as it is.
 std::string read_text(std::string const& path) {
-    struct Close { void operator()(gzFile file) const { gzclose_r(file); } };
+    struct Close {
+        void operator()(gzFile file) const { gzclose_r(file); }
+    };
     std::unique_ptr<gzFile_s, Close> const file{std::filesystem::is_regular_file(path) ? gzopen(path.c_str(), "rb")
                                                                                        : nullptr};
     if (!file)
@@ -90,7 +92,9 @@ public:
 
 private:
     template <class Number>
-    static constexpr std::string_view kind() { return std::is_integral_v<Number> ? "whole number" : "number"; }
+    static constexpr std::string_view kind() {
+        return std::is_integral_v<Number> ? "whole number" : "number";
+    }
 
     [[noreturn]] void fail(std::string_view column, std::string_view reason) const {
         throw Error(fmt::format("cannot use {}, line {}{}{}", path_, line_, column.empty() ? "" : ", column ", column),
@@ -127,7 +131,7 @@ constexpr float whole_turn = 6.2831855f;
 constexpr float largest_sensor = 1e6f;   // other simulators' range sensors leave [0, 1] by a little
 constexpr int largest_count = 1 << 30;
 
-} // namespace
+}   // namespace
 
 std::string trace_csv(std::vector<StepRecord> const& rows) {
     std::string text = "step,x,y,theta";
@@ -192,4 +196,4 @@ std::vector<Effectors> read_actions_csv(std::string const& path) {
     return actions;
 }
 
-} // namespace lore
+}   // namespace lore

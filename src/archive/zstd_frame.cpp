@@ -8,10 +8,11 @@ namespace {
 
 constexpr std::uint64_t most_expansion = 32768;   ///< 128 KiB (ZSTD_BLOCKSIZE_MAX) of a block of 4 bytes
 
-} // namespace
+}   // namespace
 
 bool may_unpack_to(std::span<std::byte const> packed, std::uint64_t raw_length) {
-    return raw_length / most_expansion <= packed.size() && ZSTD_getFrameContentSize(packed.data(), packed.size()) == raw_length;
+    return raw_length / most_expansion <= packed.size() &&
+           ZSTD_getFrameContentSize(packed.data(), packed.size()) == raw_length;
 }
 
 std::optional<Bytes> unpack_frame(std::span<std::byte const> packed, std::uint64_t raw_length) {
@@ -22,4 +23,4 @@ std::optional<Bytes> unpack_frame(std::span<std::byte const> packed, std::uint64
     return raw;
 }
 
-} // namespace lore
+}   // namespace lore

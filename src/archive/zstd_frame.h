@@ -14,4 +14,4 @@ bool may_unpack_to(std::span<std::byte const> packed, std::uint64_t raw_length);
 /// Nothing where the frame does not unpack to just that many bytes.
 std::optional<Bytes> unpack_frame(std::span<std::byte const> packed, std::uint64_t raw_length);
 
-} // namespace lore
+}   // namespace lore

@@ -21,8 +21,8 @@ namespace lore {
 
 namespace {
 
-constexpr double largest_size = 10000.0;   ///< of an arena [u]; float32 still resolves 1e-3 u there
-constexpr double largest_pause = 30000.0;  ///< fits WorldState::switch_timer
+constexpr double largest_size = 10000.0;    ///< of an arena [u]; float32 still resolves 1e-3 u there
+constexpr double largest_pause = 30000.0;   ///< fits WorldState::switch_timer
 
 float radians(double degrees) { return static_cast<float>(degrees * (std::numbers::pi / 180.0)); }
 
@@ -146,7 +146,7 @@ TaskRules const& find_task(std::vector<TaskRules> const& tasks, std::string cons
                      meant.empty() ? "Choose one of them." : fmt::format("Did you mean '{}'?", meant));
 }
 
-} // namespace
+}   // namespace
 
 Arena parse_arena(std::string_view text, std::string const& name, std::string const& task) {
     TomlTable const file = TomlTable::parse(text, name);
@@ -170,7 +170,7 @@ Arena parse_arena(std::string_view text, std::string const& name, std::string co
 
     TomlTable const basket = file.required_table("basket");
     arena.basket_lights = read_points(basket, "lights", most_basket_lights);
-    arena.basket_centre = read_point(basket, "centre");
+    arena.basket_center = read_point(basket, "centre");
     arena.basket_radius = static_cast<float>(basket.required_number("radius", 0.1, largest_size));
     basket.reject_unknown();
 
@@ -211,4 +211,4 @@ std::string arena_text(std::string const& file) {
 
 Arena load_arena(std::string const& file, std::string const& task) { return parse_arena(arena_text(file), file, task); }
 
-} // namespace lore
+}   // namespace lore

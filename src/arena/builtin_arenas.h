@@ -5,7 +5,7 @@
 
 namespace lore {
 
-/// An arena file of jobs/arenas that is compiled in, so that programs find it wherever they are started.
+/// An arena file of jobs/tasks/arenas that is compiled in, so that programs find it wherever they are started.
 struct BuiltinArena {
     std::string_view name;
     std::string_view text;
@@ -13,4 +13,4 @@ struct BuiltinArena {
 
 std::span<BuiltinArena const> builtin_arenas();
 
-} // namespace lore
+}   // namespace lore

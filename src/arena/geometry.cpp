@@ -19,7 +19,9 @@ struct Face {
 };
 
 /// A wall seen along one axis: thickness [near, far] across the faces, extent [lo, hi] along them.
-struct Slab { float near, far, lo, hi; };
+struct Slab {
+    float near, far, lo, hi;
+};
 
 Slab across_x(Rect const& r) { return {r.x0, r.x1, r.y0, r.y1}; }
 Slab across_y(Rect const& r) { return {r.y0, r.y1, r.x0, r.x1}; }
@@ -60,7 +62,7 @@ std::vector<FacePair> faces_across(Slab (*slab_of)(Rect const&), float size, std
     return pairs;
 }
 
-} // namespace
+}   // namespace
 
 void compile_geometry(Arena& arena) {
     assert(arena.task.ball_positions.size() <= most_balls && arena.basket_lights.size() <= most_basket_lights);
@@ -98,7 +100,7 @@ int walls_standing(Geometry const& g, bool door_open) {
     return door_open ? g.first_door : static_cast<int>(g.walls.size());
 }
 
-} // namespace
+}   // namespace
 
 bool light_visible(Geometry const& g, int light, float x, float y, bool door_open) {
     Point const& at = g.lights[static_cast<std::size_t>(light)];
@@ -139,4 +141,4 @@ bool disc_touches(Geometry const& g, float x, float y, bool door_open) {
     return touched;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -9,22 +9,27 @@ namespace lore {
 namespace {
 
 /// Cells are about this wide: 3 % of them are mixed in the paper's arena. Larger arenas get larger cells.
-constexpr double cell_edge = 2.0;          // [u]
+constexpr double cell_edge = 2.0;   // [u]
 constexpr double most_cells = 1 << 16;
 /// Everything is decided with cells and walls wrong by this much: far more than the rounding of positions and of the
 /// exact test in float32 (1e-3 u) in arenas of thousands of u.
-constexpr double margin = 0.05;            // [u]
+constexpr double margin = 0.05;   // [u]
 
-struct Corner { double x, y; };
-struct Box { double x0, x1, y0, y1; };
+struct Corner {
+    double x, y;
+};
+struct Box {
+    double x0, x1, y0, y1;
+};
 
 Box grown(Rect const& r, double by) { return {r.x0 - by, r.x1 + by, r.y0 - by, r.y1 + by}; }
 
 /// True if the wall lies wholly on one side of the hull of the cell and the light, and so meets none of its points.
 /// Separating axes: x, y, and the normals of the lines from the light to the cell's corners.
 bool clear_of(Box const& wall, Box const& cell, Corner const& light) {
-    if (wall.x1 < std::min(cell.x0, light.x) || wall.x0 > std::max(cell.x1, light.x)
-        || wall.y1 < std::min(cell.y0, light.y) || wall.y0 > std::max(cell.y1, light.y)) return true;
+    if (wall.x1 < std::min(cell.x0, light.x) || wall.x0 > std::max(cell.x1, light.x) ||
+        wall.y1 < std::min(cell.y0, light.y) || wall.y0 > std::max(cell.y1, light.y))
+        return true;
     std::array<Corner, 4> const hull{{{cell.x0, cell.y0}, {cell.x1, cell.y0}, {cell.x0, cell.y1}, {cell.x1, cell.y1}}};
     for (Corner const& corner : hull) {
         double const nx = corner.y - light.y, ny = light.x - corner.x;
@@ -48,8 +53,8 @@ bool blocks(Box const& wall, Corner const& corner, Corner const& light) {
     double const hx = (corner.x - light.x) / 2, hy = (corner.y - light.y) / 2;
     double const rx = (corner.x + light.x) / 2 - (wall.x0 + wall.x1) / 2;
     double const ry = (corner.y + light.y) / 2 - (wall.y0 + wall.y1) / 2;
-    return std::abs(rx) <= half_width + std::abs(hx) && std::abs(ry) <= half_height + std::abs(hy)
-        && std::abs(hx * ry - hy * rx) <= half_width * std::abs(hy) + half_height * std::abs(hx);
+    return std::abs(rx) <= half_width + std::abs(hx) && std::abs(ry) <= half_height + std::abs(hy) &&
+           std::abs(hx * ry - hy * rx) <= half_width * std::abs(hy) + half_height * std::abs(hx);
 }
 
 /// The shadow of a convex wall is convex: if it holds the four corners of the cell, it holds the cell.
@@ -88,7 +93,7 @@ double distance(Box const& a, Box const& b) {
     return std::hypot(gap_x, gap_y);
 }
 
-} // namespace
+}   // namespace
 
 Surroundings survey(float width, float height, std::span<Rect const> walls, int first_door,
                     std::span<Point const> lights, float touch_distance) {
@@ -127,4 +132,4 @@ Surroundings survey(float width, float height, std::span<Rect const> walls, int 
     return table;
 }
 
-} // namespace lore
+}   // namespace lore

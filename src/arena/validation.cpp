@@ -73,7 +73,7 @@ private:
     std::vector<double> xs_, ys_;
 };
 
-} // namespace
+}   // namespace
 
 std::string why_unusable(Arena const& arena) {
     std::vector<Rect> walls = arena.walls;
@@ -105,4 +105,4 @@ std::string why_unusable(Arena const& arena) {
     return {};
 }
 
-} // namespace lore
+}   // namespace lore

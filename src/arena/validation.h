@@ -12,4 +12,4 @@ inline constexpr double most_turn_per_step = 0.5;
 /// Why no robot could be simulated in this arena, or "": it is not closed, or something lies inside a wall.
 std::string why_unusable(Arena const&);
 
-} // namespace lore
+}   // namespace lore

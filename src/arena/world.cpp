@@ -17,7 +17,7 @@ float squared_distance(Pose const& pose, Point const& point) {
 void release(Arena const& arena, Pose const& pose, WorldState& world) {
     world.released[static_cast<std::size_t>(world.carried)] = {pose.x, pose.y};
     world.carried = -1;
-    if (squared_distance(pose, arena.basket_centre) <= arena.geometry->basket_radius_squared) ++world.collected;
+    if (squared_distance(pose, arena.basket_center) <= arena.geometry->basket_radius_squared) ++world.collected;
 }
 
 /// The first ball in index order that lies within reach, or -1.
@@ -35,11 +35,12 @@ void press_switch(Arena const& arena, WorldState& world) {
     if (arena.task.door == DoorRule::opens_with_switch) world.door_open = true;
     if (arena.task.balls == BallRule::one_per_press) {
         std::uint32_t const absent = ~std::uint32_t{world.balls} & ((1u << arena.task.ball_positions.size()) - 1u);
-        world.balls = static_cast<std::uint16_t>(world.balls | (absent & (~absent + 1u))); // the lowest that is absent
+        world.balls =
+            static_cast<std::uint16_t>(world.balls | (absent & (~absent + 1u)));   // the lowest that is absent
     }
 }
 
-} // namespace
+}   // namespace
 
 RobotState start_robot(Arena const& arena) { return {arena.start, false, false}; }
 
@@ -75,11 +76,18 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     left &= visible;
     auto const on = [](bool condition) { return condition ? 1.0f : 0.0f; };
     std::uint32_t const balls = ~(g.basket_mask | g.switch_mask);
-    return {range(look.right), range(look.left), range(look.ahead),
-            on((right & balls) != 0), on((left & balls) != 0),
-            on((right & g.basket_mask) != 0), on((left & g.basket_mask) != 0),
-            on((right & g.switch_mask) != 0), on((left & g.switch_mask) != 0),
-            on(robot.bumper_right), on(robot.bumper_left), on(world.carrying())};
+    return {range(look.right),
+            range(look.left),
+            range(look.ahead),
+            on((right & balls) != 0),
+            on((left & balls) != 0),
+            on((right & g.basket_mask) != 0),
+            on((left & g.basket_mask) != 0),
+            on((right & g.switch_mask) != 0),
+            on((left & g.switch_mask) != 0),
+            on(robot.bumper_right),
+            on(robot.bumper_left),
+            on(world.carrying())};
 }
 
 void act(Arena const& arena, Pose const& pose, Effectors const& effectors, WorldState& world) {
@@ -121,4 +129,4 @@ void move(Arena const& arena, Effectors const& effectors, WorldState const& worl
     }
 }
 
-} // namespace lore
+}   // namespace lore

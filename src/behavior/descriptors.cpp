@@ -42,7 +42,7 @@ ChannelHistograms histograms_of(Trace const& trace) {
     return histograms;
 }
 
-} // namespace
+}   // namespace
 
 Tile tile_of(Arena const& arena, float x, float y) {
     float const side = std::max(arena.width, arena.height);
@@ -73,4 +73,4 @@ Descriptors describe(Arena const& arena, Trace const& trace) {
     return d;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -47,4 +47,4 @@ void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, i
     }
 }
 
-} // namespace lore
+}   // namespace lore

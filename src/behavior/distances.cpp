@@ -16,17 +16,17 @@ namespace {
 constexpr std::array<std::string_view, distance_kinds> kind_names{"adhoc", "hamming", "trajectory", "entropy"};
 
 constexpr int insertion_cost = tiles_per_side;   // in twelfths of the paper's unit
-constexpr int deletion_cost  = tiles_per_side;
+constexpr int deletion_cost = tiles_per_side;
 int substitution_cost(Tile a, Tile b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
-} // namespace
+}   // namespace
 
 std::string_view name(DistanceKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
 DistanceKind distance_kind(std::string_view wanted) {
     auto const found = std::find(kind_names.begin(), kind_names.end(), wanted);
     if (found == kind_names.end())
-        throw UsageError("'" + std::string{wanted} + "' is not a behavioural distance",
+        throw UsageError("'" + std::string{wanted} + "' is not a behavioral distance",
                          "known are adhoc, hamming, trajectory, entropy", "Correct the name.");
     return static_cast<DistanceKind>(found - kind_names.begin());
 }
@@ -94,4 +94,4 @@ double distance(DistanceKind kind, Descriptors const& a, Descriptors const& b) {
     return 0;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -12,4 +12,4 @@ DistanceKind distance_at(std::uint64_t seed, int generation, DiversityConfig con
     return config.distances[rng.below(static_cast<std::uint32_t>(config.distances.size()))];
 }
 
-} // namespace lore
+}   // namespace lore

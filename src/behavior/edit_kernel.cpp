@@ -1,7 +1,7 @@
 // The edit distance of one path to as many others as a vector has bytes. Compiled once per instruction set.
 //
 // With D(i, j) the cost of turning the first i tiles of the path into the first j of the other, only differences
-// between neighbouring cells are kept (the idea of Myers 1999, carried over from bits to bytes):
+// between neighboring cells are kept (the idea of Myers 1999, carried over from bits to bytes):
 //
 //   across(i, j)   = D(i, j) - D(i, j-1) - 12      in -24 .. 0
 //   down(i, j)     = D(i, j) - D(i-1, j) - 12      in -24 .. 0
@@ -14,7 +14,7 @@
 //   across(i, j)   = diagonal(i, j) - down(i, j-1)
 //
 // The ranges follow by induction: D never falls along a diagonal (for the transposition because diagonal(i-1, j-1) is
-// at most the substitution of the same two tiles), and never rises by more than 12 between neighbours. A border of the
+// at most the substitution of the same two tiles), and never rises by more than 12 between neighbors. A border of the
 // matrix is 0, and so is a cell outside the band: 0 exceeds every s - 24, so it is never chosen.
 #include "edit_kernel.h"
 
@@ -161,9 +161,9 @@ void full_costs(PathGroup const& group, std::uint8_t const* path, int length, in
     }
 }
 
-} // namespace
+}   // namespace
 
 EditKernel edit();
 EditKernel edit() { return {width, prepare, diagonal_costs, banded_costs, full_costs}; }
 
-} // namespace lore::LORE_ISA_NAMESPACE
+}   // namespace lore::LORE_ISA_NAMESPACE

@@ -12,8 +12,8 @@ constexpr int tile_index(Tile tile) { return tile.y * tiles_per_side + tile.x; }
 
 /// Paths side by side, a lane each, as the edit distance kernel reads them. All memory is the caller's.
 struct PathGroup {
-    std::uint8_t const* tiles;    ///< [column][lane]: tile_index; a shorter path is padded with any tile
-    int columns;                  ///< length of the longest path
+    std::uint8_t const* tiles;   ///< [column][lane]: tile_index; a shorter path is padded with any tile
+    int columns;                 ///< length of the longest path
     /// [tile][1 + column][lane]: substitution cost of a tile and the lane's tile, minus 24 [twelfths]; column -1 is 0.
     std::int8_t* substitution;
     /// [tile][tile]: whether in some lane the first is left for the second.
@@ -21,7 +21,10 @@ struct PathGroup {
 };
 
 /// Rows in progress: [1 + column][lane] each.
-struct EditRows { std::int8_t* across; std::int8_t* diagonal; };
+struct EditRows {
+    std::int8_t* across;
+    std::int8_t* diagonal;
+};
 
 /// The kernel compiled for one instruction set.
 struct EditKernel {
@@ -41,4 +44,4 @@ struct EditKernel {
 
 EditKernel edit_kernel(Isa);
 
-} // namespace lore
+}   // namespace lore

@@ -8,10 +8,16 @@
 
 namespace lore {
 
-namespace isa_baseline { EuclideanKernel euclidean(); }
+namespace isa_baseline {
+EuclideanKernel euclidean();
+}
 #if LORE_ISA_COUNT > 1
-namespace isa_v3 { EuclideanKernel euclidean(); }
-namespace isa_v4 { EuclideanKernel euclidean(); }
+namespace isa_v3 {
+EuclideanKernel euclidean();
+}
+namespace isa_v4 {
+EuclideanKernel euclidean();
+}
 #endif
 
 EuclideanKernel euclidean_kernel(Isa isa) {
@@ -48,7 +54,7 @@ private:
     std::vector<double> columns_;   ///< [coordinate][point]
 };
 
-} // namespace
+}   // namespace
 
 void measure_adhoc_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
@@ -71,4 +77,4 @@ void measure_entropy_rows(std::span<Descriptors const* const> pool, int first, i
     points.measure(first, matrix);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -27,9 +27,9 @@ void squares(double const* point, double const* others, int coordinates, int str
     for (; j < count; ++j) squares[j] = square<double>(point, others + j, coordinates, stride);
 }
 
-} // namespace
+}   // namespace
 
 EuclideanKernel euclidean();
 EuclideanKernel euclidean() { return {squares}; }
 
-} // namespace lore::LORE_ISA_NAMESPACE
+}   // namespace lore::LORE_ISA_NAMESPACE

@@ -13,4 +13,4 @@ struct EuclideanKernel {
 
 EuclideanKernel euclidean_kernel(Isa);
 
-} // namespace lore
+}   // namespace lore

@@ -11,6 +11,8 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
 void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 
 /// A cache line, so that vectors of them hold aligned lanes of any width.
-struct alignas(64) CacheLine { std::byte bytes[64]; };
+struct alignas(64) CacheLine {
+    std::byte bytes[64];
+};
 
-} // namespace lore
+}   // namespace lore

@@ -6,10 +6,16 @@
 
 namespace lore {
 
-namespace isa_baseline { HammingKernel hamming(bool by_instruction); }
+namespace isa_baseline {
+HammingKernel hamming(bool by_instruction);
+}
 #if LORE_ISA_COUNT > 1
-namespace isa_v3 { HammingKernel hamming(bool by_instruction); }
-namespace isa_v4 { HammingKernel hamming(bool by_instruction); }
+namespace isa_v3 {
+HammingKernel hamming(bool by_instruction);
+}
+namespace isa_v4 {
+HammingKernel hamming(bool by_instruction);
+}
 #endif
 
 HammingKernel hamming_kernel(Isa isa, bool by_instruction) {
@@ -144,7 +150,7 @@ std::size_t ones(Descriptors const& d, std::size_t steps) {
     return count;
 }
 
-} // namespace
+}   // namespace
 
 void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
@@ -167,4 +173,4 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
     }
 }
 
-} // namespace lore
+}   // namespace lore

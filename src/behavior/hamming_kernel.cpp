@@ -14,7 +14,9 @@ namespace {
 constexpr int width = LORE_LANES / 2;
 using Words = Lanes<std::uint64_t, width>;
 
-struct Sum { Words carry, sum; };
+struct Sum {
+    Words carry, sum;
+};
 
 LORE_INLINE Sum add(Words const& a, Words const& b, Words const& c) {
 #if defined(__AVX512F__)
@@ -77,9 +79,8 @@ void differing(std::uint64_t const* plane, std::uint64_t const* others, int grou
 }
 
 #if defined(__AVX512F__) && LORE_LANES == 16
-[[gnu::target("avx512vpopcntdq")]]
-void differing_by_instruction(std::uint64_t const* plane, std::uint64_t const* others, int groups,
-                              std::uint32_t* counts) {
+[[gnu::target("avx512vpopcntdq")]] void
+differing_by_instruction(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts) {
     for (int group = 0; group < groups; ++group) {
         Words sum{};
         for (int k = 0; k < words_per_plane; ++k)
@@ -129,7 +130,7 @@ void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
     for (; j < size; ++j) sums[j] += terms[j];
 }
 
-} // namespace
+}   // namespace
 
 HammingKernel hamming(bool by_instruction);
 HammingKernel hamming(bool by_instruction) {
@@ -141,4 +142,4 @@ HammingKernel hamming(bool by_instruction) {
     return {width, split, differing, spread, add_terms};
 }
 
-} // namespace lore::LORE_ISA_NAMESPACE
+}   // namespace lore::LORE_ISA_NAMESPACE

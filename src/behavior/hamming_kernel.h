@@ -28,4 +28,4 @@ struct HammingKernel {
 /// `by_instruction`: counts with AVX-512's instruction for it, where the processor has it.
 HammingKernel hamming_kernel(Isa, bool by_instruction = true);
 
-} // namespace lore
+}   // namespace lore

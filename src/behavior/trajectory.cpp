@@ -7,10 +7,16 @@
 
 namespace lore {
 
-namespace isa_baseline { EditKernel edit(); }
+namespace isa_baseline {
+EditKernel edit();
+}
 #if LORE_ISA_COUNT > 1
-namespace isa_v3 { EditKernel edit(); }
-namespace isa_v4 { EditKernel edit(); }
+namespace isa_v3 {
+EditKernel edit();
+}
+namespace isa_v4 {
+EditKernel edit();
+}
 #endif
 
 EditKernel edit_kernel(Isa isa) {
@@ -128,7 +134,7 @@ private:
     bool same_length_ = true;
 };
 
-} // namespace
+}   // namespace
 
 void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
@@ -161,4 +167,4 @@ void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first
     }
 }
 
-} // namespace lore
+}   // namespace lore

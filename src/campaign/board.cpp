@@ -11,7 +11,9 @@ namespace lore {
 
 namespace {
 
-struct TerminalSize { std::size_t rows = 24, columns = 80; };
+struct TerminalSize {
+    std::size_t rows = 24, columns = 80;
+};
 
 TerminalSize terminal_size() {
     winsize size{};
@@ -19,7 +21,7 @@ TerminalSize terminal_size() {
     return {size.ws_row, size.ws_col};
 }
 
-} // namespace
+}   // namespace
 
 Board::Board(bool quiet) : quiet_(quiet), live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
 Board::~Board() { erase(); }
@@ -62,4 +64,4 @@ std::string bar(double share, int width) {
     return fmt::format("[{:#<{}}{:.<{}}]", "", full, "", width - full);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -32,4 +32,4 @@ private:
 /// [#####.....], `width` characters between the brackets.
 std::string bar(double share, int width);
 
-} // namespace lore
+}   // namespace lore

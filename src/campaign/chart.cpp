@@ -56,9 +56,7 @@ struct Curve {
     double end() const { return rows.back()->generation; }
 };
 
-Paint line_of(Curve const& curve) {
-    return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""};
-}
+Paint line_of(Curve const& curve) { return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""}; }
 
 /// Moves labels apart, keeping their order, as little as two sweeps can.
 std::vector<double> spread(std::vector<double> const& wished, double gap, double top, double bottom) {
@@ -67,7 +65,10 @@ std::vector<double> spread(std::vector<double> const& wished, double gap, double
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wished[a] < wished[b]; });
     std::vector<double> placed = wished;
     double least = top;
-    for (std::size_t const i : order) { placed[i] = std::max(placed[i], least); least = placed[i] + gap; }
+    for (std::size_t const i : order) {
+        placed[i] = std::max(placed[i], least);
+        least = placed[i] + gap;
+    }
     double most = bottom;
     for (auto i = order.rbegin(); i != order.rend(); ++i) {
         placed[*i] = std::min(placed[*i], most);
@@ -132,7 +133,7 @@ double size_of(std::string const& svg, std::string_view which) {
     return value;
 }
 
-} // namespace
+}   // namespace
 
 std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
     std::string label;
@@ -218,7 +219,11 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
 
 std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
                           std::vector<Comparison> const& comparisons) {
-    struct Box { std::string name, label; std::string_view color; std::vector<double> balls; };
+    struct Box {
+        std::string name, label;
+        std::string_view color;
+        std::vector<double> balls;
+    };
     std::vector<Box> boxes;
     double highest = 1;
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
@@ -245,16 +250,16 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     Frame const frame{64, right, top, top + 340, 1, highest + 0.4};   // room for the highest points' radius
     SvgDocument svg{right + 20, frame.bottom + 56, "Collected balls of the best-of-run at the last generation"};
     draw_ball_axis(svg, frame, "collected balls (best-of-run)");
-    auto const centre = [&](std::size_t i) { return frame.left + slot * (static_cast<double>(i) + 0.5); };
+    auto const center = [&](std::size_t i) { return frame.left + slot * (static_cast<double>(i) + 0.5); };
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        draw_box(svg, frame, centre(i), boxes[i].balls, boxes[i].color);
-        svg.text({centre(i), frame.bottom + 20}, boxes[i].label, {.anchor = Anchor::middle});
-        svg.text({centre(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()),
+        draw_box(svg, frame, center(i), boxes[i].balls, boxes[i].color);
+        svg.text({center(i), frame.bottom + 20}, boxes[i].label, {.anchor = Anchor::middle});
+        svg.text({center(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()),
                  {.anchor = Anchor::middle, .size = 10});
     }
     for (Bracket const& bracket : brackets) {
         double const y = frame.top - 12 - bracket_height * static_cast<double>(bracket.level),
-                     from = centre(bracket.from) + 5, to = centre(bracket.to) - 5, middle = (from + to) / 2;
+                     from = center(bracket.from) + 5, to = center(bracket.to) - 5, middle = (from + to) / 2;
         std::array<SvgPoint, 4> const shape{{{from, y + 4}, {from, y}, {to, y}, {to, y + 4}}};
         svg.polyline(shape, {.stroke = ink, .width = 0.8});
         svg.rect({middle - 9, y - 4}, 18, 8, {.fill = "#ffffff"});
@@ -327,4 +332,4 @@ std::string with_own_ids(std::string svg, std::string_view prefix) {
     return svg;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -88,4 +88,4 @@ std::vector<std::string> last_lines(std::string const& path, std::size_t count) 
     return {lines.begin(), lines.end()};
 }
 
-} // namespace lore
+}   // namespace lore

@@ -28,4 +28,4 @@ std::string text(ChildEnd const&);
 /// The last `count` lines of a file that say something; empty if it cannot be read.
 std::vector<std::string> last_lines(std::string const& path, std::size_t count);
 
-} // namespace lore
+}   // namespace lore

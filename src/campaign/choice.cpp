@@ -25,7 +25,7 @@ ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
     return {knowledge.name, knowledge.balls, run.run, run.seed, run.balls};
 }
 
-} // namespace
+}   // namespace
 
 ChosenRun const* Choice::find(std::string_view knowledge) const {
     for (ChosenRun const& entry : chosen)
@@ -56,7 +56,11 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
         return std::any_of(before.chosen.begin(), before.chosen.end(),
                            [&](ChosenRun const& taken) { return taken.run == run.run; });
     });
-    auto take = [&](std::vector<SourceRun>::iterator at) { SourceRun const run = *at; free.erase(at); return run; };
+    auto take = [&](std::vector<SourceRun>::iterator at) {
+        SourceRun const run = *at;
+        free.erase(at);
+        return run;
+    };
 
     std::vector<KnowledgePlan const*> wishes;
     for (KnowledgePlan const& knowledge : plan.knowledge)
@@ -93,8 +97,11 @@ void write_choice(std::string const& path, Choice const& choice) {
     document["rule"] = rule;
     document["chosen"] = nlohmann::ordered_json::array();
     for (ChosenRun const& entry : choice.chosen)
-        document["chosen"].push_back({{"knowledge", entry.knowledge}, {"wished", entry.wished}, {"run", entry.run},
-                                      {"seed", entry.seed}, {"balls", entry.balls}});
+        document["chosen"].push_back({{"knowledge", entry.knowledge},
+                                      {"wished", entry.wished},
+                                      {"run", entry.run},
+                                      {"seed", entry.seed},
+                                      {"balls", entry.balls}});
     document["considered"] = nlohmann::ordered_json::array();
     for (SourceRun const& run : choice.considered)
         document["considered"].push_back({{"run", run.run}, {"seed", run.seed}, {"balls", run.balls}});
@@ -121,4 +128,4 @@ Choice read_choice(std::string const& path) {
     }
 }
 
-} // namespace lore
+}   // namespace lore

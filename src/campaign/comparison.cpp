@@ -103,4 +103,4 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
 std::string_view significance_mark(double p) { return p < 1e-3 ? "**" : p < 1e-2 ? "*" : ""; }
 std::string p_text(double p) { return p < 1e-3 ? fmt::format("{:.1e}", p) : fmt::format("{:.3f}", p); }
 
-} // namespace lore
+}   // namespace lore

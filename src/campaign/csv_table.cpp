@@ -28,7 +28,7 @@ bool parse(std::string const& text, Number& value) {
     return failed == std::errc{} && end == text.data() + text.size();
 }
 
-} // namespace
+}   // namespace
 
 CsvTable CsvTable::read(std::string const& path) {
     std::ifstream file{path};
@@ -38,7 +38,9 @@ CsvTable CsvTable::read(std::string const& path) {
     if (!file || !std::getline(file, line))
         throw Error(fmt::format("cannot read {}", path), "no such file, not readable, or empty",
                     "Make it again from the runs.");
-    auto const without_return = [](std::string& text) { if (!text.empty() && text.back() == '\r') text.pop_back(); };
+    auto const without_return = [](std::string& text) {
+        if (!text.empty() && text.back() == '\r') text.pop_back();
+    };
     without_return(line);
     table.header_ = fields_of(line);
     for (int number = 2; std::getline(file, line); ++number) {
@@ -85,4 +87,4 @@ std::uint64_t CsvTable::natural(std::size_t row, std::size_t column) const {
     return value;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -126,8 +126,7 @@ void check_name(TomlTable const& document, std::string_view key, std::string con
 
 /// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
 KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge, KnowledgeConfig config) {
-    if (!is_built(knowledge.kind))
-        return windows_of(plan, plan.knowledge_base(knowledge.base), config);
+    if (!is_built(knowledge.kind)) return windows_of(plan, plan.knowledge_base(knowledge.base), config);
     config.window_length = knowledge.window_length.value_or(config.window_length);
     if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);
     return config;
@@ -138,9 +137,7 @@ KnowledgeConfig windows_read(TomlTable const& table, std::string const& config_p
                              std::vector<std::string> const& overrides) {
     try {
         return read_config(config_path, overrides).knowledge;
-    } catch (Error const& error) {
-        table.fail(table.has("set") ? "set" : "config", error.what());
-    }
+    } catch (Error const& error) { table.fail(table.has("set") ? "set" : "config", error.what()); }
 }
 
 /// Has a treatment's runs read the windows of its base, unless its configuration does so already.
@@ -159,7 +156,7 @@ void fit_windows(TomlTable const& table, std::string const& config_path, Treatme
                    "Leave them out: a treatment takes those of its base.");
 }
 
-} // namespace
+}   // namespace
 
 Treatment const& CampaignPlan::treatment(std::string_view name) const {
     if (source.name == name) return source;
@@ -271,4 +268,4 @@ CampaignPlan read_campaign(std::string const& path) {
     return plan;
 }
 
-} // namespace lore
+}   // namespace lore

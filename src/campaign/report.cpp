@@ -30,7 +30,7 @@ void check_names(CampaignPlan const& plan, Results const& results) {
         check_treatment("replay.csv", std::string_view{replay.step}.substr(0, replay.step.find('/')));
 }
 
-} // namespace
+}   // namespace
 
 void write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     bool const has_runs = std::filesystem::exists(from.file("runs"));
@@ -63,8 +63,7 @@ void write_report(CampaignPlan const& plan, CampaignDirectory const& from, Campa
         write_file_atomically(into.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
         write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
     }
-    write_file_atomically(into.file("report.html"),
-                          std::string_view{report_page(plan, results, comparisons, figures)});
+    write_file_atomically(into.file("report.html"), std::string_view{report_page(plan, results, comparisons, figures)});
 }
 
-} // namespace lore
+}   // namespace lore

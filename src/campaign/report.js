@@ -34,7 +34,7 @@ if (replays.length > 0) {
     parent.append(element);
     return element;
   };
-  // White for nothing to blue for the highest value; grey where the knowledge base does not find the window.
+  // White for nothing to blue for the highest value; gray where the knowledge base does not find the window.
   const shade = (value, most) => {
     if (value < 0) return "#bbbbbb";
     const share = most > 0 ? value / most : 0, mix = (a, b) => Math.round(a + (b - a) * share);

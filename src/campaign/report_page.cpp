@@ -33,7 +33,10 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-struct Heading { std::string text; bool is_text = false; };
+struct Heading {
+    std::string text;
+    bool is_text = false;
+};
 
 /// A table whose headings sort it.
 class HtmlTable {
@@ -108,7 +111,10 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
             auto const found = std::find_if(comparisons.begin(), comparisons.end(), [&](Comparison const& c) {
                 return (c.a == row && c.b == column) || (c.a == column && c.b == row);
             });
-            if (found == comparisons.end()) { html += "<td>1</td>"; continue; }
+            if (found == comparisons.end()) {
+                html += "<td>1</td>";
+                continue;
+            }
             std::string_view const mark = significance_mark(found->p);
             html +=
                 fmt::format("<td{}>{}{}</td>", mark.empty() ? "" : " class=\"significant\"", p_text(found->p), mark);
@@ -123,12 +129,12 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
         "pairs",
         {{"a", true}, {"b", true}, {"n a"}, {"n b"}, {"U"}, {"p"}, {"p (Holm)"}, {"A12"}, {"95 %"}, {"method", true}}};
     for (Comparison const& c : comparisons)
-        table.row(
-            {plan.treatment(c.a).label, plan.treatment(c.b).label, std::to_string(c.n_a), std::to_string(c.n_b),
-             fmt::format("{}", c.u), p_text(c.p), p_text(c.p_holm), fmt::format("{:.2f}", c.a12),
-             fmt::format("{:.2f} .. {:.2f}", c.a12_band.low, c.a12_band.high), c.exact ? "exact" : "normal, ties"},
-            {"", "", "", "", "", fmt::format("{}", c.p), fmt::format("{}", c.p_holm), fmt::format("{}", c.a12),
-             fmt::format("{}", c.a12_band.low), ""});
+        table.row({plan.treatment(c.a).label, plan.treatment(c.b).label, std::to_string(c.n_a), std::to_string(c.n_b),
+                   fmt::format("{}", c.u), p_text(c.p), p_text(c.p_holm), fmt::format("{:.2f}", c.a12),
+                   fmt::format("{:.2f} .. {:.2f}", c.a12_band.low, c.a12_band.high),
+                   c.exact ? "exact" : "normal, ties"},
+                  {"", "", "", "", "", fmt::format("{}", c.p), fmt::format("{}", c.p_holm), fmt::format("{}", c.a12),
+                   fmt::format("{}", c.a12_band.low), ""});
     return std::move(table).finish();
 }
 
@@ -145,8 +151,8 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
                      {"hidden"}}};
     for (PopulationRow const& p : results.populations) {
         bool const shaped = p.best_shaping >= 0;
-        table.row({plan.treatment(p.treatment).label, std::to_string(p.generation),
-                   fmt::format("{:.2f}", p.mean_balls), fmt::format("{:.0f}", p.fronts), fmt::format("{:.0f}", p.tied),
+        table.row({plan.treatment(p.treatment).label, std::to_string(p.generation), fmt::format("{:.2f}", p.mean_balls),
+                   fmt::format("{:.0f}", p.fronts), fmt::format("{:.0f}", p.tied),
                    shaped ? fmt::format("{:.2f}", p.best_shaping) : "",
                    shaped ? fmt::format("{:.2f}", p.shaping_at_max) : "", fmt::format("{:.1f}", p.connections),
                    fmt::format("{:.1f}", p.hidden)});
@@ -226,7 +232,7 @@ nlohmann::ordered_json replay_data(CampaignPlan const& plan, Results const& resu
               {"doors", doors},
               {"balls", balls},
               {"basket",
-               {rounded(arena.basket_centre.x, 100), rounded(arena.basket_centre.y, 100),
+               {rounded(arena.basket_center.x, 100), rounded(arena.basket_center.y, 100),
                 rounded(arena.basket_radius, 100)}},
               {"switch", {rounded(arena.switch_position.x, 100), rounded(arena.switch_position.y, 100)}},
               {"radius", rounded(arena.robot.radius, 100)}}},
@@ -263,7 +269,7 @@ std::string replay_section(CampaignPlan const& plan, Results const& results) {
         choices,
         results.panels.empty()
             ? ""
-            : fmt::format("The source run's path is coloured by {}'s values: blue high, pale low, grey not found.",
+            : fmt::format("The source run's path is colored by {}'s values: blue high, pale low, gray not found.",
                           escaped(knowledge_label(plan, results.panels.front().knowledge))),
         data.dump());
 }
@@ -298,7 +304,7 @@ std::string figure(std::map<std::string, std::string> const& figures, std::strin
     return fmt::format("<figure id=\"{}\">\n{}<figcaption>{}</figcaption></figure>\n", name, svg, caption);
 }
 
-} // namespace
+}   // namespace
 
 std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
                         std::map<std::string, std::string> const& figures) {
@@ -325,7 +331,7 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     page += figure(figures, "figure3",
                    "<b>Figure 3.</b> Number of collected balls of the best-of-run individual along generations, "
                    "averaged over the runs of "
-                   "each treatment. Bands: 95 % percentile bootstrap of the mean. The grey dashed line is the source "
+                   "each treatment. Bands: 95 % percentile bootstrap of the mean. The gray dashed line is the source "
                    "task, where other balls count.");
     page += figure(figures, "figure4",
                    "<b>Figure 4.</b> Collected balls of the best-of-run at the last generation; every point is a run. "
@@ -353,11 +359,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     page += figure(
         figures, "figure5",
         fmt::format(
-            "<b>Figure 5.</b> Trajectory of the best-of-run of {}, coloured by the values of its windows in single "
+            "<b>Figure 5.</b> Trajectory of the best-of-run of {}, colored by the values of its windows in single "
             "knowledge bases; below each, value by time step (-1: not found).",
             trajectory));
     page += figure(figures, "figure6",
-                   "<b>Figure 6.</b> The same trajectory coloured by the product of the values in several knowledge "
+                   "<b>Figure 6.</b> The same trajectory colored by the product of the values in several knowledge "
                    "bases (0: not found in one "
                    "of them).");
     page += replay_section(plan, results);
@@ -370,7 +376,8 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     page += "<h2 id=\"all-runs\">All runs</h2>\n" + runs_table(plan, results);
 
     std::set<std::string> versions;
-    for (RunRow const& run : results.runs) if (!run.version.empty()) versions.insert(run.version);
+    for (RunRow const& run : results.runs)
+        if (!run.version.empty()) versions.insert(run.version);
     BuildInformation const build = build_information();
     page += fmt::format(
         "<h2 id=\"origin\">How this was made</h2>\n<p>Runs: Lore {}. Report: Lore {} ({}), {}.</p>\n<pre>{}</pre>\n",
@@ -380,4 +387,4 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     return page;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -35,9 +35,9 @@ struct FinishedRun {
 
 /// Generations that all of the runs have reached.
 int common_length(std::vector<FinishedRun> const& runs) {
-    return std::min_element(runs.begin(), runs.end(), [](FinishedRun const& a, FinishedRun const& b) {
-               return a.length() < b.length();
-           })->length();
+    return std::min_element(runs.begin(), runs.end(),
+                            [](FinishedRun const& a, FinishedRun const& b) { return a.length() < b.length(); })
+        ->length();
 }
 
 std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory,
@@ -104,9 +104,9 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
             return sum / static_cast<double>(runs.size());
         };
         rows.push_back({treatment.name, generation, static_cast<int>(runs.size()), mean_of(&ProgressRow::mean_balls),
-                        mean_of(&ProgressRow::fronts), mean_of(&ProgressRow::tied),
-                        mean_of(&ProgressRow::best_shaping), mean_of(&ProgressRow::shaping_at_max),
-                        mean_of(&ProgressRow::mean_connections), mean_of(&ProgressRow::mean_hidden)});
+                        mean_of(&ProgressRow::fronts), mean_of(&ProgressRow::tied), mean_of(&ProgressRow::best_shaping),
+                        mean_of(&ProgressRow::shaping_at_max), mean_of(&ProgressRow::mean_connections),
+                        mean_of(&ProgressRow::mean_hidden)});
     }
     return rows;
 }
@@ -123,8 +123,18 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
         ChosenRun const* const source = choice ? choice->find(origin_of(plan, planned).name) : nullptr;
         if (source == nullptr || !fs::exists(directory.knowledge(planned.name))) continue;
         KnowledgeBase const base = read_knowledge_base(directory.knowledge(planned.name));
-        KnowledgeRow row{planned.name, base.provenance().kind, source->run, source->seed, source->balls,
-                         base.provenance().individuals, base.provenance().windows, base.size(), 0, 0, 0, 0};
+        KnowledgeRow row{planned.name,
+                         base.provenance().kind,
+                         source->run,
+                         source->seed,
+                         source->balls,
+                         base.provenance().individuals,
+                         base.provenance().windows,
+                         base.size(),
+                         0,
+                         0,
+                         0,
+                         0};
         if (base.size() > 0) {
             auto const [least, greatest] = std::minmax_element(base.values().begin(), base.values().end());
             row.least_value = *least;
@@ -182,7 +192,7 @@ std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory c
     return panels;
 }
 
-} // namespace
+}   // namespace
 
 std::vector<double> Results::final_balls(std::string_view treatment) const {
     std::vector<double> balls;
@@ -227,4 +237,4 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
     return results;
 }
 
-} // namespace lore
+}   // namespace lore

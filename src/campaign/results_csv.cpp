@@ -30,7 +30,7 @@ private:
     std::string text_;
 };
 
-} // namespace
+}   // namespace
 
 void write_results(CampaignDirectory const& directory, Results const& results) {
     CsvText final_balls{"treatment,run,seed,balls"};
@@ -59,8 +59,8 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
     CsvText bases{"knowledge,kind,source_run,seed,balls,individuals,windows,features,least_value,greatest_value,"
                   "at_greatest,shown_once"};
     for (KnowledgeRow const& b : results.bases)
-        bases.row("{},{},{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls, b.individuals,
-                  b.windows, b.features, b.least_value, b.greatest_value, b.at_greatest, b.shown_once);
+        bases.row("{},{},{},{},{},{},{},{},{},{},{},{}", b.knowledge, b.kind, b.source_run, b.seed, b.balls,
+                  b.individuals, b.windows, b.features, b.least_value, b.greatest_value, b.at_greatest, b.shown_once);
     bases.write(directory, "kbs.csv");
 
     CsvText replay{"replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected"};
@@ -110,11 +110,10 @@ Results read_results(CampaignDirectory const& directory) {
         CsvTable const table = CsvTable::read(directory.file("population.csv"));
         for (std::size_t r = 0; r < table.rows(); ++r) {
             auto const number = [&](std::string_view column) { return table.number(r, table.column(column)); };
-            results.populations.push_back({table.text(r, table.column("treatment")),
-                                           table.integer(r, table.column("generation")),
-                                           table.integer(r, table.column("runs")), number("mean_balls"),
-                                           number("fronts"), number("tied"), number("best_shaping"),
-                                           number("shaping_at_max"), number("connections"), number("hidden")});
+            results.populations.push_back(
+                {table.text(r, table.column("treatment")), table.integer(r, table.column("generation")),
+                 table.integer(r, table.column("runs")), number("mean_balls"), number("fronts"), number("tied"),
+                 number("best_shaping"), number("shaping_at_max"), number("connections"), number("hidden")});
         }
     }
     if (there("kbs.csv")) {
@@ -125,8 +124,8 @@ Results read_results(CampaignDirectory const& directory) {
                  bases.integer(r, bases.column("source_run")), bases.natural(r, bases.column("seed")),
                  bases.integer(r, bases.column("balls")), bases.natural(r, bases.column("individuals")),
                  bases.natural(r, bases.column("windows")), bases.integer(r, bases.column("features")),
-                 bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value")), bases.integer(r, bases.column("at_greatest")),
-                 bases.integer(r, bases.column("shown_once"))});
+                 bases.number(r, bases.column("least_value")), bases.number(r, bases.column("greatest_value")),
+                 bases.integer(r, bases.column("at_greatest")), bases.integer(r, bases.column("shown_once"))});
     }
     if (there("replay.csv")) {
         CsvTable const replay = CsvTable::read(directory.file("replay.csv"));
@@ -159,4 +158,4 @@ Results read_results(CampaignDirectory const& directory) {
     return results;
 }
 
-} // namespace lore
+}   // namespace lore

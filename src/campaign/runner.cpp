@@ -39,7 +39,7 @@ public:
         sigemptyset(&ours);
         for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGCHLD}) {
             sigaddset(&ours, signal);
-            struct sigaction action{};
+            struct sigaction action {};
             action.sa_handler = signal == SIGCHLD ? wake_up : request_stop;
             ::sigaction(signal, &action, &former_[signal]);
         }
@@ -67,12 +67,12 @@ struct Task {
 
     Step step;
     Phase phase = Phase::waiting;
-    int attempts = 0;            ///< failed ones of this session
-    int generation = 0;          ///< last seen
-    int generations = 0;         ///< that it is to reach; 0 if it is no run
+    int attempts = 0;      ///< failed ones of this session
+    int generation = 0;    ///< last seen
+    int generations = 0;   ///< that it is to reach; 0 if it is no run
     int best_balls = 0;
-    double seconds = 0;          ///< spent on it in all sessions
-    int started_at = 0;          ///< generation at the last start: a resume that gains nothing counts as a failure
+    double seconds = 0;   ///< spent on it in all sessions
+    int started_at = 0;   ///< generation at the last start: a resume that gains nothing counts as a failure
     pid_t pid = 0;
     std::optional<StepLock> lock;
 
@@ -102,7 +102,8 @@ public:
             }
         } catch (...) {
             // Our own trouble (a full disk, say) must not leave runs behind that nobody watches.
-            for (Task const& task : tasks_) if (task.pid != 0) ::kill(task.pid, SIGUSR1);
+            for (Task const& task : tasks_)
+                if (task.pid != 0) ::kill(task.pid, SIGUSR1);
             while (working() != 0) {
                 signals_.sleep(1);
                 for (Task& task : tasks_)
@@ -161,7 +162,10 @@ private:
                 if (ours->phase == Phase::done) continue;
                 bool const lost = ours->phase == Phase::failed || ours->phase == Phase::blocked;
                 if (lost && settled_is_enough) continue;
-                if (lost) { missing = needed.name; return Readiness::never; }
+                if (lost) {
+                    missing = needed.name;
+                    return Readiness::never;
+                }
                 return Readiness::later;
             }
         }
@@ -202,7 +206,10 @@ private:
             board_.announce(fmt::format("{} done", task.step.name));
             return;
         }
-        if (task.step.kind == StepKind::choose) { choose(task); return; }
+        if (task.step.kind == StepKind::choose) {
+            choose(task);
+            return;
+        }
         auto const choice = recorded_choice(directory_);
         auto const command = command_of(plan_, directory_, options_.launcher, task.step, choice ? &*choice : nullptr);
         std::string const parent =
@@ -285,9 +292,8 @@ private:
         }
         task.phase = Phase::failed;
         write_failure(directory_, task.step, {task.attempts, how, log});
-        board_.complain(
-            fmt::format("{} failed{} ({}); {} ends with:", task.step.name, task.attempts > 1 ? " twice" : "", how,
-                        directory_.log(task.step.name)));
+        board_.complain(fmt::format("{} failed{} ({}); {} ends with:", task.step.name,
+                                    task.attempts > 1 ? " twice" : "", how, directory_.log(task.step.name)));
         for (std::string const& line : log) board_.complain("    " + line);
     }
 
@@ -384,7 +390,7 @@ private:
     int stops_passed_on_ = 0;
 };
 
-} // namespace
+}   // namespace
 
 ExitCode run_campaign(CampaignPlan const& plan, CampaignDirectory const& directory, RunnerOptions const& options) {
     std::error_code failed;
@@ -395,4 +401,4 @@ ExitCode run_campaign(CampaignPlan const& plan, CampaignDirectory const& directo
     return Runner{plan, directory, options}.run();
 }
 
-} // namespace lore
+}   // namespace lore

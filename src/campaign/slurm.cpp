@@ -125,7 +125,7 @@ std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directo
     return text;
 }
 
-} // namespace
+}   // namespace
 
 std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory const& where, Launcher const& launcher,
                                  std::string const& program) {
@@ -199,7 +199,10 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
         if (!job.after.empty()) conditions.push_back(fmt::format("afterok:{}", fmt::join(ids(job.after), ":")));
         if (!job.after_any.empty())
             conditions.push_back(fmt::format("afterany:{}", fmt::join(ids(job.after_any), ":")));
-        if (only_write) { lines.push_back(job.script); continue; }
+        if (only_write) {
+            lines.push_back(job.script);
+            continue;
+        }
         std::vector<std::string> command{"sbatch", "--parsable"};
         // A dependency that can no longer be met ends the job instead of leaving it in the queue for ever.
         if (!conditions.empty())
@@ -217,4 +220,4 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
     return lines;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -70,9 +70,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     if (fs::exists(in(run, run_file::manifest))) {
         try {
             manifest = read_manifest(in(run, run_file::manifest));
-        } catch (Error const& error) {
-            return say(StepStatus::failed, error.what());
-        }
+        } catch (Error const& error) { return say(StepStatus::failed, error.what()); }
     }
     if (manifest && manifest->status == RunStatus::done) {
         if (seed && manifest->seed != *seed)
@@ -86,21 +84,20 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
         return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
     }
     if (taken) return say(StepStatus::running, where);
-    if (auto const failure = read_failure(directory, step))
-        return say(StepStatus::failed, text(*failure));
+    if (auto const failure = read_failure(directory, step)) return say(StepStatus::failed, text(*failure));
     if (manifest) return say(StepStatus::interrupted, where);
     return say(StepStatus::missing, "");
 }
 
-} // namespace
+}   // namespace
 
 std::string_view name(StepStatus status) {
     switch (status) {
-        case StepStatus::done: return "done";
-        case StepStatus::running: return "running";
-        case StepStatus::interrupted: return "interrupted";
-        case StepStatus::failed: return "failed";
-        case StepStatus::missing: return "missing";
+    case StepStatus::done: return "done";
+    case StepStatus::running: return "running";
+    case StepStatus::interrupted: return "interrupted";
+    case StepStatus::failed: return "failed";
+    case StepStatus::missing: return "missing";
     }
     return "";
 }
@@ -188,7 +185,7 @@ std::optional<StepLock> StepLock::take(std::string const& path) {
     if (descriptor < 0)
         throw Error(fmt::format("cannot write {}", path), std::strerror(errno),
                     "Choose a directory that can be written.");
-    struct flock whole{};
+    struct flock whole {};
     whole.l_type = F_WRLCK;
     whole.l_whence = SEEK_SET;
     if (::fcntl(descriptor, F_OFD_SETLK, &whole) == 0) return StepLock{descriptor};
@@ -202,7 +199,7 @@ std::optional<StepLock> StepLock::take(std::string const& path) {
 bool StepLock::is_taken(std::string const& path) {
     int const descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor < 0) return false;
-    struct flock whole{};
+    struct flock whole {};
     whole.l_type = F_WRLCK;
     whole.l_whence = SEEK_SET;
     bool const taken = ::fcntl(descriptor, F_OFD_GETLK, &whole) == 0 && whole.l_type != F_UNLCK;
@@ -211,8 +208,13 @@ bool StepLock::is_taken(std::string const& path) {
 }
 
 StepLock::StepLock(StepLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-StepLock& StepLock::operator=(StepLock&& other) noexcept { std::swap(descriptor_, other.descriptor_); return *this; }
-StepLock::~StepLock() { if (descriptor_ >= 0) ::close(descriptor_); }
+StepLock& StepLock::operator=(StepLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+}
+StepLock::~StepLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
 
 RunProgress last_progress(std::string const& run_directory) {
     std::ifstream file{in(run_directory, run_file::progress), std::ios::binary | std::ios::ate};
@@ -236,4 +238,4 @@ RunProgress last_progress(std::string const& run_directory) {
     return progress;
 }
 
-} // namespace lore
+}   // namespace lore

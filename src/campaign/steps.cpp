@@ -46,24 +46,23 @@ std::string chosen_run(Choice const* choice, KnowledgePlan const& lineage_base) 
 }
 
 std::vector<std::string> build_command(CampaignPlan const& plan, CampaignDirectory const& directory,
-                                       Launcher const& launcher, KnowledgePlan const& knowledge,
-                                       Choice const* choice) {
+                                       Launcher const& launcher, KnowledgePlan const& knowledge, Choice const* choice) {
     std::vector<std::string> command{program(launcher, "lore-kb")};
     auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
     switch (knowledge.kind) {
-        case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
-        case KnowledgeKind::same_lineage:
-            add({"build", directory.run(chosen_run(choice, plan.knowledge_base(knowledge.base)))});
-            break;
-        case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
-        case KnowledgeKind::random:
-            add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)});
-            break;
-        case KnowledgeKind::reduced:
-            add({"reduce", directory.knowledge(knowledge.base)});
-            if (!knowledge.consensus.empty()) add({"--consensus"});
-            for (std::string const& other : knowledge.consensus) add({directory.knowledge(other)});
-            break;
+    case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
+    case KnowledgeKind::same_lineage:
+        add({"build", directory.run(chosen_run(choice, plan.knowledge_base(knowledge.base)))});
+        break;
+    case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
+    case KnowledgeKind::random:
+        add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)});
+        break;
+    case KnowledgeKind::reduced:
+        add({"reduce", directory.knowledge(knowledge.base)});
+        if (!knowledge.consensus.empty()) add({"--consensus"});
+        for (std::string const& other : knowledge.consensus) add({directory.knowledge(other)});
+        break;
     }
     if (knowledge.window_length) add({"--window-length", fmt::format("{}", *knowledge.window_length)});
     if (knowledge.match_threshold) add({"--threshold", fmt::format("{}", *knowledge.match_threshold)});
@@ -72,7 +71,7 @@ std::vector<std::string> build_command(CampaignPlan const& plan, CampaignDirecto
     return command;
 }
 
-} // namespace
+}   // namespace
 
 std::string run_step(std::string_view treatment, int run) {
     return run == 0 ? fmt::format("{}/?", treatment) : fmt::format("{}/{:03}", treatment, run);
@@ -112,19 +111,19 @@ std::vector<Step> steps_of(CampaignPlan const& plan) {
     for (KnowledgePlan const& knowledge : plan.knowledge) {
         std::vector<std::string> after;
         switch (knowledge.kind) {
-            case KnowledgeKind::lineage:
-            case KnowledgeKind::same_lineage: after = {"choose"}; break;
-            case KnowledgeKind::all: {
-                std::string const archive = archive_step(knowledge.name);
-                steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
-                after = {archive};
-                break;
-            }
-            case KnowledgeKind::random: after = {knowledge_step(knowledge.base)}; break;
-            case KnowledgeKind::reduced:
-                after = {knowledge_step(knowledge.base)};
-                for (std::string const& other : knowledge.consensus) after.push_back(knowledge_step(other));
-                break;
+        case KnowledgeKind::lineage:
+        case KnowledgeKind::same_lineage: after = {"choose"}; break;
+        case KnowledgeKind::all: {
+            std::string const archive = archive_step(knowledge.name);
+            steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
+            after = {archive};
+            break;
+        }
+        case KnowledgeKind::random: after = {knowledge_step(knowledge.base)}; break;
+        case KnowledgeKind::reduced:
+            after = {knowledge_step(knowledge.base)};
+            for (std::string const& other : knowledge.consensus) after.push_back(knowledge_step(other));
+            break;
         }
         std::string const name = knowledge_step(knowledge.name);
         steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
@@ -141,7 +140,10 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
             if (step.name == name || step.group == name) found.push_back(step);
         if (found.size() != before) continue;
         std::vector<std::string_view> known;
-        for (Step const& step : steps) { known.push_back(step.name); known.push_back(step.group); }
+        for (Step const& step : steps) {
+            known.push_back(step.name);
+            known.push_back(step.group);
+        }
         std::string const meant = nearest_word(name, known.data(), known.size());
         throw UsageError(fmt::format("there is no step '{}'", name), "not in this campaign",
                          meant.empty() ? "'lore-campaign plan' lists them." : fmt::format("Did you mean '{}'?", meant));
@@ -152,24 +154,24 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
 std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory,
                                     Launcher const& launcher, Step const& step, Choice const* choice) {
     switch (step.kind) {
-        case StepKind::evolve: {
-            Treatment const& treatment = plan.treatment(step.subject);
-            auto command =
-                evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
-            if (!treatment.knowledge.empty())
-                command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
-            return command;
-        }
-        case StepKind::archive: {
-            KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
-            std::uint64_t const seed = choice == nullptr ? 0 : seed_of(plan.source, choice->of(base.name).run);
-            auto command = evolve_command(plan, launcher, plan.source, seed, directory.run(step.name));
-            if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = std::string{"?"};
-            command.insert(command.end(), {"--archive", "all"});
-            return command;
-        }
-        case StepKind::build: return build_command(plan, directory, launcher, plan.knowledge_base(step.subject), choice);
-        case StepKind::choose: break;
+    case StepKind::evolve: {
+        Treatment const& treatment = plan.treatment(step.subject);
+        auto command =
+            evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
+        if (!treatment.knowledge.empty())
+            command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
+        return command;
+    }
+    case StepKind::archive: {
+        KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
+        std::uint64_t const seed = choice == nullptr ? 0 : seed_of(plan.source, choice->of(base.name).run);
+        auto command = evolve_command(plan, launcher, plan.source, seed, directory.run(step.name));
+        if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = std::string{"?"};
+        command.insert(command.end(), {"--archive", "all"});
+        return command;
+    }
+    case StepKind::build: return build_command(plan, directory, launcher, plan.knowledge_base(step.subject), choice);
+    case StepKind::choose: break;
     }
     return {};
 }
@@ -181,7 +183,10 @@ std::string shell_text(std::vector<std::string> const& command) {
         bool const plain =
             !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                                     "0123456789_-./=:,+@%") == std::string::npos;
-        if (plain) { text += word; continue; }
+        if (plain) {
+            text += word;
+            continue;
+        }
         text += '\'';
         for (char const c : word) c == '\'' ? text += "'\\''" : text += c;
         text += '\'';
@@ -189,4 +194,4 @@ std::string shell_text(std::vector<std::string> const& command) {
     return text;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -22,10 +22,10 @@ namespace lore {
 
 namespace {
 
-constexpr int most_in_a_message = 10;      ///< genomes; about 3 kB, which MPI sends without asking first
-constexpr int least_rows_to_share = 32;    ///< below, sending costs more than measuring
+constexpr int most_in_a_message = 10;     ///< genomes; about 3 kB, which MPI sends without asking first
+constexpr int least_rows_to_share = 32;   ///< below, sending costs more than measuring
 
-} // namespace
+}   // namespace
 
 EvaluationFailure::EvaluationFailure(int index, int rank, Genome genome, std::string reason)
     : Error(fmt::format("an evaluation failed on rank {}", rank), reason, "Repeat it with lore-replay."), index_(index),
@@ -231,4 +231,4 @@ std::vector<RankTimes> Farm::stop() {
     return times;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -59,7 +59,8 @@ public:
         return item;
     }
     void deliver(int ticket, Evaluation evaluation) override {
-        if (state_.hooks.damaged_reply && !state_.victim.edges.empty()) evaluation.descriptors.balls.resize(most_balls + 1);
+        if (state_.hooks.damaged_reply && !state_.victim.edges.empty())
+            evaluation.descriptors.balls.resize(most_balls + 1);
         feed_.deliver(ticket, std::move(evaluation));
     }
     void pulse() override { feed_.pulse(); }
@@ -106,16 +107,12 @@ private:
 std::string reason_of_current_exception() {
     try {
         throw;
-    } catch (std::bad_alloc const&) {
-        return "out of memory";
-    } catch (std::exception const& error) {
+    } catch (std::bad_alloc const&) { return "out of memory"; } catch (std::exception const& error) {
         return error.what();
-    } catch (...) {
-        return "an exception of unknown type";
-    }
+    } catch (...) { return "an exception of unknown type"; }
 }
 
-} // namespace
+}   // namespace
 
 StreamEvaluation with_test_hooks(StreamEvaluation evaluate, int rank) {
     TestHooks const hooks = hooks_from_environment(rank);
@@ -134,20 +131,16 @@ std::optional<Culprit> evaluate_guarded(StreamEvaluation const& evaluate, Evalua
     try {
         evaluate(watched);
         return std::nullopt;
-    } catch (...) {
-        reason = reason_of_current_exception();
-    }
+    } catch (...) { reason = reason_of_current_exception(); }
     if (watched.under_way.empty()) throw Error("an evaluation failed", reason, "Resume the run.");
     for (auto const& [ticket, genome] : watched.under_way) {
         try {
             SingleFeed single{genome};
             evaluate(single);
-        } catch (...) {
-            return Culprit{ticket, genome, reason_of_current_exception()};
-        }
+        } catch (...) { return Culprit{ticket, genome, reason_of_current_exception()}; }
     }
     auto const& [ticket, genome] = *watched.under_way.begin();
     return Culprit{ticket, genome, reason + ", but none of those under way fails alone"};
 }
 
-} // namespace lore
+}   // namespace lore

@@ -13,4 +13,4 @@ struct Communicator::Handle {
     ~Handle();
 };
 
-} // namespace lore
+}   // namespace lore

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
 constexpr int polls_before_sleeping = 4000;          ///< longer than rank 0 takes between two generations
-constexpr std::chrono::microseconds sleep{20};        ///< with the kernel's slack about 80
+constexpr std::chrono::microseconds sleep{20};       ///< with the kernel's slack about 80
 
 struct MessageHeader {
     std::uint32_t mark;
@@ -21,7 +21,7 @@ struct MessageHeader {
     std::uint64_t length;
 };
 
-} // namespace
+}   // namespace
 
 Post::~Post() {
     // After a failure some may never be taken; MPI_Abort follows then.
@@ -84,4 +84,4 @@ void Post::flush() {
     while (!outgoing_.empty()) forget_sent();
 }
 
-} // namespace lore
+}   // namespace lore

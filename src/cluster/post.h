@@ -10,8 +10,8 @@
 
 namespace lore {
 
-/// Of the pulses of an evaluation, which come every 25 us or so, how many pass between two looks for messages. A look at
-/// every second one took 4 % of a worker's time.
+/// Of the pulses of an evaluation, which come every 25 us or so, how many pass between two looks for messages. A look
+/// at every second one took 4 % of a worker's time.
 inline constexpr int pulses_a_look = 8;
 
 /// What a message is; also its MPI tag, so that a receiver asks for what it can take and nothing else.
@@ -61,4 +61,4 @@ private:
     std::list<Outgoing> outgoing_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -34,9 +34,7 @@ public:
         waiting_.pop_front();
         return Item{present_.ticket, &present_.genome};
     }
-    void deliver(int ticket, Evaluation evaluation) override {
-        finished_.push_back({ticket, std::move(evaluation)});
-    }
+    void deliver(int ticket, Evaluation evaluation) override { finished_.push_back({ticket, std::move(evaluation)}); }
     void pulse() override {
         if (++pulses_ % pulses_a_look == 0) look();
     }
@@ -65,7 +63,7 @@ private:
     unsigned pulses_ = 0;
 };
 
-} // namespace
+}   // namespace
 
 void serve(Communicator const& communicator, StreamEvaluation const& evaluation) {
     StreamEvaluation const evaluate = with_test_hooks(evaluation, communicator.rank());
@@ -83,8 +81,7 @@ void serve(Communicator const& communicator, StreamEvaluation const& evaluation)
             feed.take(message);
             auto const culprit = evaluate_guarded(evaluate, feed);
             feed.send_finished();
-            if (culprit)
-                post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
+            if (culprit) post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
             times.evaluation += watch.lap();
         } else {
             try {
@@ -99,4 +96,4 @@ void serve(Communicator const& communicator, StreamEvaluation const& evaluation)
     post.flush();
 }
 
-} // namespace lore
+}   // namespace lore

@@ -39,13 +39,13 @@ void refuse_accidental_copies() {
                          "Start it with 'mpirun', or with 'srun --mpi=pmix'.");
 }
 
-} // namespace
+}   // namespace
 
 Communicator::Handle::~Handle() {
-    int finalised = 0;
+    int finalized = 0;
     if (comm == MPI_COMM_NULL) return;
-    MPI_Finalized(&finalised);
-    if (!finalised) MPI_Comm_free(&comm);
+    MPI_Finalized(&finalized);
+    if (!finalized) MPI_Comm_free(&comm);
 }
 
 Communicator::Communicator() : handle_(std::make_shared<Handle>()) {}
@@ -122,4 +122,4 @@ std::string host_name() {
     return name;
 }
 
-} // namespace lore
+}   // namespace lore

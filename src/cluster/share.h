@@ -11,4 +11,4 @@ inline int share_of_a_worker(int genomes, int ranks, int lanes) {
     return (genomes + ranks * half_set - 1) / (ranks * half_set) * half_set;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -1,6 +1,5 @@
 #include "shared_rows.h"
 
-
 #include <lore/archive/messages.h>
 #include <lore/core/stopwatch.h>
 
@@ -27,7 +26,7 @@ std::vector<int> equal_areas(int first, int last, int parts) {
     return bounds;
 }
 
-} // namespace
+}   // namespace
 
 void measure_together(Post& post, int ranks, std::span<Descriptors const* const> pool, int known,
                       DistanceMatrix& matrix, RankTimes& times) {
@@ -87,4 +86,4 @@ void measure_for_rank_0(Post& post, Message const& message, DistanceMatrix& scra
     post.send(0, MessageKind::distances, message.unit, pack_distances(request.first, request.last, scratch));
 }
 
-} // namespace lore
+}   // namespace lore

@@ -14,4 +14,4 @@ void measure_together(Post&, int ranks, std::span<Descriptors const* const> pool
 /// A worker's part: measures the rows of one message and sends them back. `scratch` is kept from call to call.
 void measure_for_rank_0(Post&, Message const&, DistanceMatrix& scratch);
 
-} // namespace lore
+}   // namespace lore

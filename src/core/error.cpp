@@ -32,7 +32,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-} // namespace
+}   // namespace
 
 Error::Error(std::string_view problem, std::string_view reason, std::string_view remedy, ExitCode code)
     : std::runtime_error(one_line(problem, reason, remedy)), code_(code) {}
@@ -42,9 +42,12 @@ std::string nearest_word(std::string_view typed, std::string_view const* candida
     std::size_t fewest = std::max<std::size_t>(2, typed.size() / 3) + 1;
     for (std::size_t i = 0; i < count; ++i) {
         std::size_t const edits = edits_between(typed, candidates[i]);
-        if (edits < fewest) { fewest = edits; best = candidates[i]; }
+        if (edits < fewest) {
+            fewest = edits;
+            best = candidates[i];
+        }
     }
     return best;
 }
 
-} // namespace lore
+}   // namespace lore

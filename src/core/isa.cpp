@@ -28,7 +28,7 @@ Isa from_environment() {
                      "Unset LORE_ISA to take the best set.");
 }
 
-} // namespace
+}   // namespace
 
 std::string_view name(Isa isa) { return isa_names[static_cast<int>(isa)]; }
 
@@ -39,7 +39,8 @@ Isa detected_isa() {
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         return Isa::v4;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma")) return Isa::v3;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma"))
+        return Isa::v3;
 #endif
     return Isa::baseline;
 }
@@ -54,4 +55,4 @@ Isa active_isa() {
 
 void use_isa(Isa isa) { chosen.store(static_cast<int>(isa), std::memory_order_relaxed); }
 
-} // namespace lore
+}   // namespace lore

@@ -15,7 +15,7 @@ namespace {
 constexpr int bar_width = 30;
 constexpr std::chrono::milliseconds redraw_every{100};
 
-} // namespace
+}   // namespace
 
 std::string duration_text(double seconds) {
     auto const whole = static_cast<std::int64_t>(std::llround(std::clamp(seconds, 0.0, 1e9)));
@@ -24,8 +24,8 @@ std::string duration_text(double seconds) {
 }
 
 Progress::Progress(std::string title, std::int64_t total, std::string unit, std::int64_t line_every, bool quiet)
-    : title_(std::move(title)), unit_(std::move(unit)), total_(total), line_every_(std::max<std::int64_t>(1, line_every)),
-      quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+    : title_(std::move(title)), unit_(std::move(unit)), total_(total),
+      line_every_(std::max<std::int64_t>(1, line_every)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
     if (bar_open_) std::fputc('\n', stderr);
@@ -45,13 +45,14 @@ void Progress::update(std::int64_t done, std::string_view note) {
     double const elapsed = std::chrono::duration<double>(now - began_).count();
     std::string time = duration_text(elapsed) + " elapsed";
     if (!last && done > first_)
-        time = duration_text(elapsed * static_cast<double>(total_ - done) / static_cast<double>(done - first_)) + " left";
+        time =
+            duration_text(elapsed * static_cast<double>(total_ - done) / static_cast<double>(done - first_)) + " left";
     std::string_view const gap = note.empty() ? "" : ", ";
     std::string line;
     if (terminal_) {
         auto const filled = static_cast<int>(total_ <= 0 ? bar_width : bar_width * std::min(done, total_) / total_);
-        line = fmt::format("\r{} [{:=<{}}{:{}}] {}/{} {}, {}{}{}\x1b[K", title_, "", filled, "", bar_width - filled, done, total_, unit_, time,
-                           gap, note);
+        line = fmt::format("\r{} [{:=<{}}{:{}}] {}/{} {}, {}{}{}\x1b[K", title_, "", filled, "", bar_width - filled,
+                           done, total_, unit_, time, gap, note);
         bar_open_ = !last;
         if (last) line += '\n';
     } else {
@@ -61,4 +62,4 @@ void Progress::update(std::int64_t done, std::string_view note) {
     std::fflush(stderr);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -38,4 +38,4 @@ std::uint32_t Stream::below(std::uint32_t count) {
     return static_cast<std::uint32_t>(product >> 32);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -6,4 +6,4 @@ namespace lore {
 
 std::string Signature::text() const { return fmt::format("{:016x}", value_); }
 
-} // namespace lore
+}   // namespace lore

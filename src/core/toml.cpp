@@ -15,9 +15,9 @@ namespace lore {
 /// One table of a document. `document` keeps the parsed whole alive.
 struct TomlTable::Node {
     std::shared_ptr<toml::table const> document;
-    toml::table const*                 table = nullptr;
-    std::string                        name;
-    std::string                        path;   ///< "evolution." for the keys of [evolution]
+    toml::table const* table = nullptr;
+    std::string name;
+    std::string path;   ///< "evolution." for the keys of [evolution]
     mutable std::set<std::string, std::less<>> asked;
 
     toml::node const* find(std::string_view key) const {
@@ -45,14 +45,16 @@ TomlTable TomlTable::read_file(std::string const& path) {
     std::ifstream file{path, std::ios::binary};
     std::ostringstream text;
     if (!file || !(text << file.rdbuf()))
-        throw UsageError(fmt::format("cannot read {}", path), "no such file, not readable, or empty", "Check the path.");
+        throw UsageError(fmt::format("cannot read {}", path), "no such file, not readable, or empty",
+                         "Check the path.");
     return parse(text.str(), path);
 }
 
 void TomlTable::fail(std::string_view key, std::string_view reason, std::string_view remedy) const {
     toml::node const* at = key.empty() ? nullptr : node_->table->get(key);
     std::string const where = at != nullptr && at->source().begin.line != 0
-        ? fmt::format("{}, line {}", node_->name, at->source().begin.line) : node_->name;
+                                  ? fmt::format("{}, line {}", node_->name, at->source().begin.line)
+                                  : node_->name;
     throw UsageError(fmt::format("{}: {}{}", where, node_->path, key), reason, remedy);
 }
 
@@ -205,8 +207,9 @@ void TomlTable::reject_unknown() const {
         if (node_->asked.contains(key)) continue;
         std::vector<std::string_view> const known(node_->asked.begin(), node_->asked.end());
         std::string const meant = nearest_word(key, known.data(), known.size());
-        fail(key, "unknown key", meant.empty() ? "Remove it." : fmt::format("Did you mean '{}{}'?", node_->path, meant));
+        fail(key, "unknown key",
+             meant.empty() ? "Remove it." : fmt::format("Did you mean '{}{}'?", node_->path, meant));
     }
 }
 
-} // namespace lore
+}   // namespace lore

@@ -29,4 +29,4 @@ private:
     std::size_t offset_ = 0, count_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -26,7 +26,7 @@ WorldState simulate(Arena const& arena, Network const& network, EpisodeConfig co
     return world;
 }
 
-} // namespace
+}   // namespace
 
 std::uint16_t trace_bits(Sensors const& sensors, Effectors const& effectors) {
     auto const channel = [&](int c) {
@@ -59,4 +59,4 @@ Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig c
     return trace;
 }
 
-} // namespace lore
+}   // namespace lore

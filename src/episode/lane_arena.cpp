@@ -25,7 +25,7 @@ std::vector<FaceLine> join_lines(std::vector<FacePair> const& pairs, std::vector
     return lines;
 }
 
-} // namespace
+}   // namespace
 
 LaneArenaLayout::LaneArenaLayout(Arena const& arena) {
     Geometry const& g = *arena.geometry;
@@ -64,4 +64,4 @@ LaneArenaLayout::LaneArenaLayout(Arena const& arena) {
     view_.switch_pause = arena.task.switch_pause;
 }
 
-} // namespace lore
+}   // namespace lore

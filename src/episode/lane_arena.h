@@ -21,4 +21,4 @@ private:
     LaneArena view_{};
 };
 
-} // namespace lore
+}   // namespace lore

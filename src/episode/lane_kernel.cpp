@@ -60,7 +60,9 @@ LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mecha
 }
 
 /// What the cells where the robots are know (Surroundings::Cell), per lane.
-struct Known { I clear, mixed, suspects, touchable; };
+struct Known {
+    I clear, mixed, suspects, touchable;
+};
 
 LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I const& open) {
     // Robots cannot leave the closed arena; the bounds only keep every read inside the table.
@@ -74,7 +76,9 @@ LORE_INLINE Known look_up(LaneArena const& arena, F const& x, F const& y, I cons
 }
 
 /// Lights in view of the sensors at each side, and those near enough to be taken or pressed; a bit a light.
-struct LightsSeen { I right, left, in_reach; };
+struct LightsSeen {
+    I right, left, in_reach;
+};
 
 LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y, mechanics::Directions<F> const& look,
                                   Known const& known, I const& shining, I const& open) {
@@ -97,12 +101,13 @@ LORE_INLINE LightsSeen see_lights(LaneArena const& arena, F const& x, F const& y
             int const light = __builtin_ctz(asked);
             F const light_x = lanes::all_of<F>(arena.lights[light].x),
                     light_y = lanes::all_of<F>(arena.lights[light].y);
-            visit_walls(suspects, arena.wall_count, [&](int wall) __attribute__((always_inline)) {
-                I crossed = mechanics::segment_meets(arena.walls[wall], x, y, light_x, light_y);
-                if (wall >= arena.first_door) crossed &= ~open;
-                // Where the light is clear no wall crosses, so lanes need not be told apart.
-                visible &= ~(crossed & (1 << light));
-            });
+            visit_walls(
+                suspects, arena.wall_count, [&](int wall) __attribute__((always_inline)) {
+                    I crossed = mechanics::segment_meets(arena.walls[wall], x, y, light_x, light_y);
+                    if (wall >= arena.first_door) crossed &= ~open;
+                    // Where the light is clear no wall crosses, so lanes need not be told apart.
+                    visible &= ~(crossed & (1 << light));
+                });
         }
     }
     return {right & visible, left & visible, near & shining};
@@ -120,7 +125,9 @@ struct Walls {
 };
 
 /// What the attempted move meets.
-struct Contact { I any, right, left; };
+struct Contact {
+    I any, right, left;
+};
 
 LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F const& x, F const& y,
                                 math::SinCos<F> const& heading, I const& open) {
@@ -134,26 +141,28 @@ LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F con
     // walls are judged at once, then all second ones.
     Walls first, second;
     I again{}, more{};
-    visit_walls(touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
-        Rect const& wall = arena.walls[i];
-        I touched = mechanics::touches(wall, x, y, arena.radius_squared);
-        if (i >= arena.first_door) touched &= ~open;
-        first.take(touched & ~contact.any, wall);
-        second.take(touched & contact.any & ~again, wall);
-        more |= touched & again;
-        again |= touched & contact.any;
-        contact.any |= touched;
-    });
+    visit_walls(
+        touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
+            Rect const& wall = arena.walls[i];
+            I touched = mechanics::touches(wall, x, y, arena.radius_squared);
+            if (i >= arena.first_door) touched &= ~open;
+            first.take(touched & ~contact.any, wall);
+            second.take(touched & contact.any & ~again, wall);
+            more |= touched & again;
+            again |= touched & contact.any;
+            contact.any |= touched;
+        });
     if (!lanes::any(contact.any)) return contact;
     press(contact.any, first);
     if (!lanes::any(again)) return contact;
     press(again, second);
     if (!lanes::any(more)) return contact;
-    visit_walls(touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
-        I touched = mechanics::touches(arena.walls[i], x, y, arena.radius_squared) & more;
-        if (i >= arena.first_door) touched &= ~open;
-        press(touched, arena.walls[i]);
-    });
+    visit_walls(
+        touchable, arena.wall_count, [&](int i) __attribute__((always_inline)) {
+            I touched = mechanics::touches(arena.walls[i], x, y, arena.radius_squared) & more;
+            if (i >= arena.first_door) touched &= ~open;
+            press(touched, arena.walls[i]);
+        });
     return contact;
 }
 
@@ -162,8 +171,8 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     LaneArena const& arena = work.arena;
     F const x = lanes::load<F>(work.x + at), y = lanes::load<F>(work.y + at);
     I const open = lanes::load<I>(work.door_open + at);
-    I const shining = lanes::load<I>(work.balls + at) | static_cast<std::int32_t>(arena.basket_mask)
-                    | (lanes::load<I>(work.switch_lit + at) & static_cast<std::int32_t>(arena.switch_mask));
+    I const shining = lanes::load<I>(work.balls + at) | static_cast<std::int32_t>(arena.basket_mask) |
+                      (lanes::load<I>(work.switch_lit + at) & static_cast<std::int32_t>(arena.switch_mask));
     Known const known = look_up(arena, x, y, open);
     mechanics::Directions<F> const look = mechanics::directions(
         math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
@@ -305,11 +314,11 @@ void run(LaneWork& work, int first, int last) {
     }
 }
 
-} // namespace
+}   // namespace
 
 void run_steps(LaneWork& work, int first, int last) {
     if (work.vectors == 1) run<1>(work, first, last);
     else run<lane_vectors>(work, first, last);
 }
 
-} // namespace lore::LORE_ISA_NAMESPACE
+}   // namespace lore::LORE_ISA_NAMESPACE

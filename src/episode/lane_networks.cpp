@@ -13,7 +13,7 @@ constexpr int most_targets = effector_count + most_hidden;
 constexpr int most_sources = sensor_count + most_hidden;
 constexpr int group_size = 4;   ///< of hidden neurons: enough sums in flight to hide the latency of an addition
 
-} // namespace
+}   // namespace
 
 void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width) {
     hidden_count_ = 0;
@@ -74,8 +74,10 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
 }
 
 LaneNetworks LaneNetworkLayout::view() const {
-    return {groups_.data(), static_cast<int>(groups_.size()), sources_.data(), offsets_.data(), weights_.data(),
-            block_size_,    biases_.data(),                   hidden_count_};
+    return {groups_.data(),  static_cast<int>(groups_.size()),
+            sources_.data(), offsets_.data(),
+            weights_.data(), block_size_,
+            biases_.data(),  hidden_count_};
 }
 
-} // namespace lore
+}   // namespace lore

@@ -24,4 +24,4 @@ private:
     int hidden_count_ = 0, block_size_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -5,17 +5,20 @@
 #include <cstdint>
 
 /// What the lane kernels read and write: plain structs of pointers and arrays, because kernels may not include the
-/// standard containers (cmake/LoreTargets.cmake, lore_kernel).
+/// standard containers (tools/cmake/LoreTargets.cmake, lore_kernel).
 namespace lore {
 
 /// Vectors that one kernel advances together, phase by phase. A step is one long chain of dependent operations; while
 /// one vector waits for its results the processor works on the other.
 inline constexpr int lane_vectors = 2;
 inline constexpr int lane_slots =
-    16 * lane_vectors; ///< lanes of the widest kernel; narrower ones use the first of them
+    16 * lane_vectors;   ///< lanes of the widest kernel; narrower ones use the first of them
 
 /// An interval [lo, hi] of a face line; `door`: there only while the door is shut.
-struct FaceInterval { float lo, hi; std::int32_t door; };
+struct FaceInterval {
+    float lo, hi;
+    std::int32_t door;
+};
 
 /// Face pairs in the same two places: one distance serves all their intervals (FacePair, arena/shapes.h).
 struct FaceLine {
@@ -24,7 +27,10 @@ struct FaceLine {
 };
 
 /// A light; its bit is read from memory, where broadcasting costs nothing.
-struct LaneLight { float x, y; std::int32_t bit; };
+struct LaneLight {
+    float x, y;
+    std::int32_t bit;
+};
 
 /// Geometry, robot and task as the kernel reads them.
 struct LaneArena {
@@ -38,7 +44,7 @@ struct LaneArena {
     std::int32_t light_count;
     std::uint32_t ball_mask, basket_mask, switch_mask;   ///< of lights
 
-    void const* cells;                ///< Surroundings::cells
+    void const* cells;   ///< Surroundings::cells
     std::int32_t columns, rows, open_offset;
     float cells_per_u;
     /// Lights to look at wherever a lane is. A robot is never nearer to a wall than its radius, so no wall comes
@@ -54,7 +60,7 @@ struct LaneArena {
 /// Targets of a network whose sums run side by side: one for each of `count` accumulators.
 struct NeuronGroup {
     std::int32_t count;
-    std::int32_t first_target;          ///< 0..2 outputs, then hidden neurons
+    std::int32_t first_target;   ///< 0..2 outputs, then hidden neurons
     std::int32_t first_entry, last_entry;
 };
 
@@ -77,7 +83,7 @@ struct alignas(64) LaneWork {
     float x[lane_slots], y[lane_slots], theta[lane_slots];
     std::int32_t bumper_right[lane_slots], bumper_left[lane_slots];   ///< masks: 0 or -1, likewise below
     std::int32_t carrying[lane_slots], door_open[lane_slots], switch_lit[lane_slots];
-    std::int32_t balls[lane_slots];          ///< WorldState::balls
+    std::int32_t balls[lane_slots];   ///< WorldState::balls
     std::int32_t switch_timer[lane_slots];
 
     /// Within a step: heading, the word so far, whether something can be taken or pressed, walls that may be touched.
@@ -85,13 +91,13 @@ struct alignas(64) LaneWork {
     std::int32_t word[lane_slots], in_reach[lane_slots];
     std::uint32_t touchable[lane_vectors];
 
-    int vectors;                   ///< that hold a running lane, 1 or lane_vectors; rows are as long in any case
+    int vectors;   ///< that hold a running lane, 1 or lane_vectors; rows are as long in any case
     LaneArena arena;
     LaneNetworks networks;
-    float* neurons;                ///< [source][lane]: 12 inputs, then hidden neurons
-    float* next_hidden;            ///< [hidden][lane]
+    float* neurons;       ///< [source][lane]: 12 inputs, then hidden neurons
+    float* next_hidden;   ///< [hidden][lane]
 
-    float* values;                 ///< the chunk's buffers, see LaneChunk
+    float* values;   ///< the chunk's buffers, see LaneChunk
     std::uint16_t* words;
     float* trail_x;
     float* trail_y;
@@ -99,11 +105,17 @@ struct alignas(64) LaneWork {
     /// Called where a lane's robot picks up, releases or presses: applies the rules to the lane's world and writes back
     /// carrying, door_open, switch_lit, balls and switch_timer. Those are as before the step's action.
     void (*act)(LaneWork&, int lane, float collect);
-    void* owner;                   ///< for `act`
+    void* owner;   ///< for `act`
 };
 
-namespace isa_baseline { void run_steps(LaneWork&, int first, int last); }
-namespace isa_v3 { void run_steps(LaneWork&, int first, int last); }
-namespace isa_v4 { void run_steps(LaneWork&, int first, int last); }
+namespace isa_baseline {
+void run_steps(LaneWork&, int first, int last);
+}
+namespace isa_v3 {
+void run_steps(LaneWork&, int first, int last);
+}
+namespace isa_v4 {
+void run_steps(LaneWork&, int first, int last);
+}
 
-} // namespace lore
+}   // namespace lore

@@ -95,11 +95,11 @@ public:
 
 private:
     struct Lane {
-        int episode = -1;      ///< -1: idle
+        int episode = -1;   ///< -1: idle
         Network const* network = nullptr;
         int steps_left = 0;
         int still_steps = 0;
-        int valid = 0;         ///< rows of this chunk
+        int valid = 0;   ///< rows of this chunk
         WorldState world;
     };
 
@@ -138,8 +138,7 @@ private:
 
     void lay_networks() {
         std::array<Network const*, most_lanes> networks{};
-        for (std::size_t lane = 0; lane < lanes_.size(); ++lane)
-            networks[lane] = lanes_[lane].network;
+        for (std::size_t lane = 0; lane < lanes_.size(); ++lane) networks[lane] = lanes_[lane].network;
         layout_.lay({networks.data(), static_cast<std::size_t>(width_)}, width_);
         work_.networks = layout_.view();
         networks_changed_ = false;
@@ -254,7 +253,7 @@ private:
     std::vector<float> hidden_before_;
 };
 
-} // namespace
+}   // namespace
 
 int lane_count() { return lane_vectors * lanes_of(active_isa()); }
 
@@ -270,4 +269,4 @@ void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Net
     run_in_lanes(arena, config, source, chunk_steps, observer);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -6,8 +6,17 @@ namespace {
 
 StepRecord record(int step, Pose const& pose, Sensors const& sensors, Effectors const& effectors,
                   WorldState const& world, Pose const& next) {
-    return {step, pose, sensors, effectors, world.carrying(), world.door_open, world.balls,
-            world.collected, world.switch_lit, world.switch_timer, next};
+    return {step,
+            pose,
+            sensors,
+            effectors,
+            world.carrying(),
+            world.door_open,
+            world.balls,
+            world.collected,
+            world.switch_lit,
+            world.switch_timer,
+            next};
 }
 
 StepRecord step_by_hand(Arena const& arena, int step, Effectors const& effectors, RobotState& robot,
@@ -31,7 +40,7 @@ WorldState world_after(Arena const& arena, StepRecord const& row) {
     return world;
 }
 
-} // namespace
+}   // namespace
 
 std::vector<StepRecord> record_steps(Arena const& arena, Network const& network, EpisodeConfig const& config) {
     std::vector<StepRecord> rows;
@@ -65,4 +74,4 @@ std::vector<StepRecord> follow(Arena const& arena, std::span<StepRecord const> r
     return rows;
 }
 
-} // namespace lore
+}   // namespace lore

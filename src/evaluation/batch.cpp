@@ -84,7 +84,7 @@ public:
             if (rows == 0) continue;
             Lane& now = at(lane);
             for (int row = rows; row < chunk.steps; ++row)
-                count_row(chunk, lane, row, ~0u); // not the episode's: take back
+                count_row(chunk, lane, row, ~0u);   // not the episode's: take back
             for (int row = (steps_per_tile_sample - now.steps % steps_per_tile_sample) % steps_per_tile_sample;
                  row < rows; row += steps_per_tile_sample)
                 now.path.push_back(
@@ -168,7 +168,7 @@ private:
 
     EvaluationContext const& context_;
     EvaluationFeed& feed_;
-    std::map<int, Network> networks_;    ///< of those under way; a map, so that they stay where they are
+    std::map<int, Network> networks_;   ///< of those under way; a map, so that they stay where they are
     ChunkKernel const& kernel_;
     int window_length_ = 0;
     std::optional<Shaper::Reader> reader_;
@@ -206,7 +206,7 @@ private:
     std::size_t next_ = 0;
 };
 
-} // namespace
+}   // namespace
 
 bool larger(Genome const& a, Genome const& b) {
     return a.biases.size() != b.biases.size() ? a.biases.size() > b.biases.size() : a.edges.size() > b.edges.size();
@@ -223,4 +223,4 @@ std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::sp
     return std::move(feed.evaluations);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -83,8 +83,8 @@ void count_ones(std::uint16_t const* words, int count, std::uint32_t (&ones)[9])
         for (int bit = 0; bit < 9; ++bit) ones[bit] += words[done] >> bit & 1u;
 }
 
-} // namespace
+}   // namespace
 
 extern ChunkKernel const chunk_kernel{tally_chunk, transpose_words, count_ones};
 
-} // namespace lore::LORE_ISA_NAMESPACE
+}   // namespace lore::LORE_ISA_NAMESPACE

@@ -5,8 +5,8 @@
 /// What is done to every chunk of lanes, compiled once per instruction set (cmake: lore_kernel).
 namespace lore {
 
-inline constexpr int tally_channels = 6;    ///< the continuous channels
-inline constexpr int tally_bins     = 10;
+inline constexpr int tally_channels = 6;   ///< the continuous channels
+inline constexpr int tally_bins = 10;
 
 /// counts[channel][bin][lane].
 struct LaneTally {
@@ -27,8 +27,14 @@ struct ChunkKernel {
     CountOnes* count_ones;
 };
 
-namespace isa_baseline { extern ChunkKernel const chunk_kernel; }
-namespace isa_v3 { extern ChunkKernel const chunk_kernel; }
-namespace isa_v4 { extern ChunkKernel const chunk_kernel; }
+namespace isa_baseline {
+extern ChunkKernel const chunk_kernel;
+}
+namespace isa_v3 {
+extern ChunkKernel const chunk_kernel;
+}
+namespace isa_v4 {
+extern ChunkKernel const chunk_kernel;
+}
 
-} // namespace lore
+}   // namespace lore

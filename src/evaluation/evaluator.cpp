@@ -21,4 +21,4 @@ std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const>
     return evaluate_batch(context_, genomes);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -119,7 +119,7 @@ void sign(Signature& signature, Population const& population) {
     }
 }
 
-} // namespace
+}   // namespace
 
 EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator, EvolutionState state,
                       GenerationObserver const& observer) {
@@ -161,4 +161,4 @@ Individual const& best_of_run(Population const& population) {
                              });
 }
 
-} // namespace lore
+}   // namespace lore

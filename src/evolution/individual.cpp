@@ -12,4 +12,4 @@ Birth::~Birth() {
     while (ancestor && ancestor.use_count() == 1) ancestor = std::move(const_cast<Birth&>(*ancestor).parent);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -21,4 +21,4 @@ std::vector<Birth const*> ancestors_of(std::span<Individual const> members) {
     return ancestors;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -86,4 +86,4 @@ std::vector<double> crowding_distances(std::span<Objectives const> points, std::
     return crowding;
 }
 
-} // namespace lore
+}   // namespace lore

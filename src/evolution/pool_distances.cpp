@@ -8,11 +8,11 @@ namespace lore {
 
 namespace {
 
-/// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave more
-/// to the end. While there is nothing else to do, few are enough.
+/// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave
+/// more to the end. While there is nothing else to do, few are enough.
 constexpr int enough = 96, enough_in_a_lull = 16;
 
-} // namespace
+}   // namespace
 
 PoolDistances::PoolDistances(Population const& parents, int children, DistanceKind kind)
     : kind_(kind), parents_(static_cast<int>(parents.members.size())),
@@ -53,4 +53,4 @@ DistanceMatrix PoolDistances::finish(Population const& pool, Evaluator& evaluato
     return std::is_sorted(order_.begin(), order_.end()) ? std::move(matrix_) : matrix_.select(place);
 }
 
-} // namespace lore
+}   // namespace lore

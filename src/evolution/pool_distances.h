@@ -32,4 +32,4 @@ private:
     DistanceMatrix matrix_;                   ///< in `order_`
 };
 
-} // namespace lore
+}   // namespace lore

@@ -30,7 +30,7 @@ std::vector<int> tournament_draw(int members, int length, Stream& rng) {
     return draw;
 }
 
-} // namespace
+}   // namespace
 
 std::string_view name(TieRule rule) { return rule_names[static_cast<std::size_t>(rule)]; }
 
@@ -98,4 +98,4 @@ Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> ti
     return ranking;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -5,7 +5,7 @@
 
 namespace lore {
 
-GenerationSummary summarise(GenerationReport const& report) {
+GenerationSummary summarize(GenerationReport const& report) {
     std::vector<Individual> const& members = report.state->population.members;
     GenerationSummary summary;
     summary.generation = report.generation;
@@ -41,4 +41,4 @@ GenerationSummary summarise(GenerationReport const& report) {
     return summary;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -4,7 +4,6 @@
 
 #include <lore/core/stopwatch.h>
 
-
 namespace lore {
 
 namespace {
@@ -21,7 +20,7 @@ ExperimentConfig bench_config() {
     return config;
 }
 
-} // namespace
+}   // namespace
 
 BenchOutcome run_bench(Session const& session) {
     WorkOrder const order{bench_config(), arena_text("collectball"), "", ""};
@@ -30,12 +29,13 @@ BenchOutcome run_bench(Session const& session) {
     Farm farm{session.world(), evaluation_in(std::move(context))};
     std::uint64_t evaluations = 0;
     Stopwatch const watch;
-    EvolutionState const state = evolve(order.config.evolution, bench_seed, farm, {}, [&](GenerationReport const& report) {
-        evaluations += report.born.size();
-        return true;
-    });
+    EvolutionState const state =
+        evolve(order.config.evolution, bench_seed, farm, {}, [&](GenerationReport const& report) {
+            evaluations += report.born.size();
+            return true;
+        });
     double const seconds = watch.total();
     return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
 }
 
-} // namespace lore
+}   // namespace lore

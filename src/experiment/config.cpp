@@ -19,7 +19,10 @@ namespace {
 void read_settings(TomlTable const& document, std::vector<Setting> const& settings) {
     std::map<std::string, TomlTable, std::less<>> sections;
     for (Setting const& setting : settings) {
-        if (setting.section.empty()) { setting.read(document); continue; }
+        if (setting.section.empty()) {
+            setting.read(document);
+            continue;
+        }
         auto section = sections.find(setting.section);
         if (section == sections.end()) {
             auto table = document.table(setting.section);
@@ -112,7 +115,7 @@ std::string located(std::string const& arena, std::string const& directory) {
     return (std::filesystem::path{directory} / arena).lexically_normal().string();
 }
 
-} // namespace
+}   // namespace
 
 ExperimentConfig parse_config(std::string_view text, std::string const& name, std::string const& directory,
                               std::vector<std::string> const& overrides) {
@@ -133,9 +136,7 @@ ExperimentConfig read_config(std::string const& path, std::vector<std::string> c
     std::vector<std::byte> bytes;
     try {
         bytes = read_file(path);
-    } catch (Error const& error) {
-        throw UsageError("no configuration", error.what(), "");
-    }
+    } catch (Error const& error) { throw UsageError("no configuration", error.what(), ""); }
     return parse_config({reinterpret_cast<char const*>(bytes.data()), bytes.size()}, path,
                         std::filesystem::path{path}.parent_path().string(), overrides);
 }
@@ -163,4 +164,4 @@ std::vector<std::string> differing_settings(ExperimentConfig const& a, Experimen
     return keys;
 }
 
-} // namespace lore
+}   // namespace lore

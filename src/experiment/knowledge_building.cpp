@@ -93,7 +93,9 @@ class Recorder : public LaneObserver {
 public:
     explicit Recorder(std::vector<Trace>& traces) : traces_(traces) {}
 
-    void begin(int lane, int episode) override { episodes_[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(episode); }
+    void begin(int lane, int episode) override {
+        episodes_[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(episode);
+    }
 
     void see(LaneChunk const& chunk, std::span<int const> valid) override {
         auto const width = static_cast<std::size_t>(chunk.width);
@@ -102,7 +104,8 @@ public:
             if (steps == 0) continue;
             Trace& trace = traces_[episodes_[lane]];
             for (std::size_t step = 0; step < steps; ++step) trace.bits.push_back(chunk.words[step * width + lane]);
-            for (std::size_t i = 0; i < steps * continuous_count; ++i) trace.values.push_back(chunk.values[i * width + lane]);
+            for (std::size_t i = 0; i < steps * continuous_count; ++i)
+                trace.values.push_back(chunk.values[i * width + lane]);
         }
     }
 
@@ -114,7 +117,9 @@ public:
             for (std::size_t i = 0; i < continuous_count; ++i) trace.values.push_back(trace.values[last + i]);
     }
 
-    void end(int lane, WorldState const& final_world) override { traces_[episodes_[static_cast<std::size_t>(lane)]].final_world = final_world; }
+    void end(int lane, WorldState const& final_world) override {
+        traces_[episodes_[static_cast<std::size_t>(lane)]].final_world = final_world;
+    }
 
 private:
     std::vector<Trace>& traces_;
@@ -131,9 +136,10 @@ void simulate(RunDirectory const& run, Batch& batch) {
     run_in_lanes(run.arena, run.config.episode, batch.networks, chunk_steps, recorder);
     for (std::size_t i = 0; i < batch.size(); ++i)
         if (batch.traces[i].final_world.collected != batch.balls[i])
-            throw Error(fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
-                        fmt::format("{} balls now, {} in its archive", batch.traces[i].final_world.collected, batch.balls[i]),
-                        "Build with the version of Lore and the arena file that the run was made with.");
+            throw Error(
+                fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
+                fmt::format("{} balls now, {} in its archive", batch.traces[i].final_world.collected, batch.balls[i]),
+                "Build with the version of Lore and the arena file that the run was made with.");
 }
 
 /// Calls its argument for each individual in the order of building.
@@ -157,16 +163,17 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
             });
             if (batch.size() > 0) send();
             queue.finish(nullptr);
-        } catch (Abandoned const&) {
-            queue.finish(nullptr);
-        } catch (...) {
+        } catch (Abandoned const&) { queue.finish(nullptr); } catch (...) {
             queue.finish(std::current_exception());
         }
     }};
     struct Join {   // also when an exception passes
         BatchQueue& queue;
         std::thread& thread;
-        ~Join() { queue.abandon(); thread.join(); }
+        ~Join() {
+            queue.abandon();
+            thread.join();
+        }
     } const join{queue, simulator};
 
     KnowledgeBuilder builder{config, make_index(kind, config)};
@@ -174,7 +181,8 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
-            exhibits.push_back({windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i])});
+            exhibits.push_back(
+                {windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i])});
         if (kind == IndexKind::exact) {
             builder.add_individuals(exhibits, threads);
         } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
@@ -188,10 +196,10 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     return std::move(builder).finish(std::move(provenance));
 }
 
-} // namespace
+}   // namespace
 
-KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individual, KnowledgeConfig const& config, IndexKind kind,
-                                   Provenance provenance, BuildingObserver const& observe) {
+KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individual, KnowledgeConfig const& config,
+                                   IndexKind kind, Provenance provenance, BuildingObserver const& observe) {
     provenance.kind = "lineage";
     provenance.best_balls = individual.balls;
     Source const lineage = [&](auto const& each) {
@@ -219,9 +227,10 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
 
 std::uint64_t archived_individuals(RunDirectory const& run) {
     if (!std::filesystem::exists(run.file(run_file::all_individuals)))
-        throw Error(fmt::format("{} did not keep all individuals", run.path), fmt::format("there is no {}", run_file::all_individuals),
+        throw Error(fmt::format("{} did not keep all individuals", run.path),
+                    fmt::format("there is no {}", run_file::all_individuals),
                     "Run 'lore-evolve' with '--archive all', or build from the lineage without --all.");
     return check_all_individuals(run.file(run_file::all_individuals)).individuals;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -31,16 +31,23 @@ Json to_json(std::vector<FileRecord> const& files) {
 
 std::vector<FileRecord> files_from(Json const& list) {
     std::vector<FileRecord> files;
-    for (Json const& file : list) files.push_back({file.at("role"), file.at("path"), whole_number<std::uint64_t>(file.at("bytes")), file.at("xxh3_64")});
+    for (Json const& file : list)
+        files.push_back(
+            {file.at("role"), file.at("path"), whole_number<std::uint64_t>(file.at("bytes")), file.at("xxh3_64")});
     return files;
 }
 
 Json to_json(RunSession const& session) {
-    return {{"command_line", session.command_line},   {"started", session.started},
-            {"stopped", session.stopped},             {"reason", session.reason},
-            {"first_generation", session.first_generation}, {"last_generation", session.last_generation},
-            {"ranks", session.ranks},                 {"hosts", session.hosts},
-            {"isa", session.isa},                     {"seconds", session.seconds}};
+    return {{"command_line", session.command_line},
+            {"started", session.started},
+            {"stopped", session.stopped},
+            {"reason", session.reason},
+            {"first_generation", session.first_generation},
+            {"last_generation", session.last_generation},
+            {"ranks", session.ranks},
+            {"hosts", session.hosts},
+            {"isa", session.isa},
+            {"seconds", session.seconds}};
 }
 
 RunSession session_from(Json const& json) {
@@ -58,7 +65,7 @@ RunSession session_from(Json const& json) {
     return session;
 }
 
-} // namespace
+}   // namespace
 
 std::string_view name(RunStatus status) { return status_names[static_cast<int>(status)]; }
 
@@ -93,10 +100,12 @@ void write_manifest(std::string const& path, Manifest const& manifest) {
 Manifest read_manifest(std::string const& path) {
     auto const bytes = read_file(path);
     try {
-        Json const json = Json::parse(reinterpret_cast<char const*>(bytes.data()), reinterpret_cast<char const*>(bytes.data()) + bytes.size());
+        Json const json = Json::parse(reinterpret_cast<char const*>(bytes.data()),
+                                      reinterpret_cast<char const*>(bytes.data()) + bytes.size());
         if (int const format = whole_number<int>(json.at("format")); format > manifest_format)
             throw Error(fmt::format("cannot read {}", path),
-                        fmt::format("written by a newer Lore: format {}, this one reads {}", format, manifest_format), "Update Lore.");
+                        fmt::format("written by a newer Lore: format {}, this one reads {}", format, manifest_format),
+                        "Update Lore.");
         Manifest manifest;
         std::string const status = json.at("status");
         auto const known = std::find(std::begin(status_names), std::end(status_names), status);
@@ -112,29 +121,31 @@ Manifest read_manifest(std::string const& path) {
         manifest.best = json.at("best");
         Json const& build = json.at("build");
         manifest.build = {build.at("version"), build.at("commit"), build.at("compiler"), build.at("build_type"), {}};
-        for (auto const& [library, version] : build.at("libraries").items()) manifest.build.libraries.emplace_back(library, version);
+        for (auto const& [library, version] : build.at("libraries").items())
+            manifest.build.libraries.emplace_back(library, version);
         manifest.inputs = files_from(json.at("inputs"));
         manifest.outputs = files_from(json.at("outputs"));
         for (Json const& session : json.at("sessions")) manifest.sessions.push_back(session_from(session));
         return manifest;
-    } catch (Error const&) {
-        throw;
-    } catch (std::exception const& error) {
+    } catch (Error const&) { throw; } catch (std::exception const& error) {
         throw Error(fmt::format("cannot read {}", path), error.what(), "Take a copy that is whole.");
     }
 }
 
 FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as) {
-    return {role, shown_as, static_cast<std::uint64_t>(std::filesystem::file_size(path)), checksum_text(checksum_of_file(path))};
+    return {role, shown_as, static_cast<std::uint64_t>(std::filesystem::file_size(path)),
+            checksum_text(checksum_of_file(path))};
 }
 
 FileRecord const* find_role(std::vector<FileRecord> const& files, std::string_view role) {
-    auto const found = std::find_if(files.begin(), files.end(), [&](FileRecord const& file) { return file.role == role; });
+    auto const found =
+        std::find_if(files.begin(), files.end(), [&](FileRecord const& file) { return file.role == role; });
     return found == files.end() ? nullptr : &*found;
 }
 
 std::string time_stamp() {
-    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                       fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
-} // namespace lore
+}   // namespace lore

@@ -33,15 +33,14 @@ public:
     bool take(Number& number) {
         std::string_view const field = next();
         auto const [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-        return error == std::errc{} && end == field.data() + field.size() && std::isfinite(static_cast<double>(number));   // "nan" is a number to it
+        return error == std::errc{} && end == field.data() + field.size() &&
+               std::isfinite(static_cast<double>(number));   // "nan" is a number to it
     }
     bool take(DistanceKind& kind) {
         try {
             kind = distance_kind(next());
             return true;
-        } catch (UsageError const&) {
-            return false;
-        }
+        } catch (UsageError const&) { return false; }
     }
     bool at_end() const { return ended_; }
 
@@ -61,16 +60,18 @@ private:
     throw Error(fmt::format("cannot read {}", path), reason, remedy);
 }
 
-Error write_error(std::string const& path) { return Error(fmt::format("cannot write {}", path), std::strerror(errno), "Mend that and resume the run."); }
+Error write_error(std::string const& path) {
+    return Error(fmt::format("cannot write {}", path), std::strerror(errno), "Mend that and resume the run.");
+}
 
-} // namespace
+}   // namespace
 
 std::string progress_header() { return std::string{header}; }
 
 std::string text(ProgressRow const& row) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}", row.generation, row.best_balls, row.mean_balls, name(row.distance),
-                       row.mean_diversity, row.best_shaping, row.mean_connections, row.mean_hidden, row.fronts, row.tied, row.shaping_at_max,
-                       row.evaluations, row.steps, row.seconds);
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}", row.generation, row.best_balls, row.mean_balls,
+                       name(row.distance), row.mean_diversity, row.best_shaping, row.mean_connections, row.mean_hidden,
+                       row.fronts, row.tied, row.shaping_at_max, row.evaluations, row.steps, row.seconds);
 }
 
 std::vector<ProgressRow> read_progress(std::string const& path) {
@@ -91,17 +92,20 @@ std::vector<ProgressRow> read_progress(std::string const& path) {
         }
         Fields fields{line};
         ProgressRow row;
-        bool const whole = fields.take(row.generation) && fields.take(row.best_balls) && fields.take(row.mean_balls) && fields.take(row.distance) &&
-                           fields.take(row.mean_diversity) && fields.take(row.best_shaping) && fields.take(row.mean_connections) &&
-                           fields.take(row.mean_hidden) && fields.take(row.fronts) && fields.take(row.tied) && fields.take(row.shaping_at_max) &&
-                           fields.take(row.evaluations) && fields.take(row.steps) && fields.take(row.seconds) && fields.at_end();
-        if (!whole || row.generation != static_cast<int>(rows.size())) refuse(path, fmt::format("line {} is damaged", line_number), "Take a copy that is whole.");
+        bool const whole = fields.take(row.generation) && fields.take(row.best_balls) && fields.take(row.mean_balls) &&
+                           fields.take(row.distance) && fields.take(row.mean_diversity) &&
+                           fields.take(row.best_shaping) && fields.take(row.mean_connections) &&
+                           fields.take(row.mean_hidden) && fields.take(row.fronts) && fields.take(row.tied) &&
+                           fields.take(row.shaping_at_max) && fields.take(row.evaluations) && fields.take(row.steps) &&
+                           fields.take(row.seconds) && fields.at_end();
+        if (!whole || row.generation != static_cast<int>(rows.size()))
+            refuse(path, fmt::format("line {} is damaged", line_number), "Take a copy that is whole.");
         rows.push_back(row);
     }
 }
 
 ProgressRow row_of(GenerationReport const& report) {
-    GenerationSummary const summary = summarise(report);
+    GenerationSummary const summary = summarize(report);
     ProgressRow row;
     row.generation = summary.generation;
     row.best_balls = summary.best_balls;
@@ -124,12 +128,14 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(st
     if (!fresh) {
         struct stat status {};
         if (::stat(path_.c_str(), &status) != 0 || static_cast<std::uint64_t>(status.st_size) < bytes)
-            throw Error(fmt::format("cannot go on with {}", path_), fmt::format("it is shorter than the {} bytes that the checkpoint knows", bytes),
+            throw Error(fmt::format("cannot go on with {}", path_),
+                        fmt::format("it is shorter than the {} bytes that the checkpoint knows", bytes),
                         "Take a copy that is whole, or start the run anew in another directory.");
     }
     file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666);
     if (file_ < 0) throw write_error(path_);
-    if (!fresh && (::ftruncate(file_, static_cast<off_t>(bytes)) != 0 || ::lseek(file_, 0, SEEK_END) < 0)) throw write_error(path_);
+    if (!fresh && (::ftruncate(file_, static_cast<off_t>(bytes)) != 0 || ::lseek(file_, 0, SEEK_END) < 0))
+        throw write_error(path_);
     bytes_ = bytes;
     if (fresh) write(progress_header() + "\n");
 }
@@ -155,4 +161,4 @@ std::uint64_t ProgressWriter::sync() {
     return bytes_;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -41,9 +41,7 @@ Error tell(EvaluationFailure const& failure, int generation, std::string const& 
     try {
         write_genome(genome_path, {id, failure.genome(), failure.rank(), failure.reason()});
         remedy = fmt::format("Its genome is in {}; resume the run when the cause is mended.", genome_path);
-    } catch (Error const& error) {
-        remedy = fmt::format("Its genome could not be saved: {}", error.what());
-    }
+    } catch (Error const& error) { remedy = fmt::format("Its genome could not be saved: {}", error.what()); }
     return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id),
                              failure.rank(), generation),
                  failure.reason(), remedy);
@@ -77,7 +75,7 @@ void mend_lineage(RunSetup const& setup) {
     if (!whole) write_lineage(path, setup.checkpoint->state.population);
 }
 
-} // namespace
+}   // namespace
 
 RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     Stopwatch const watch;
@@ -145,4 +143,4 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
             best_of_run(state.population).birth};
 }
 
-} // namespace lore
+}   // namespace lore

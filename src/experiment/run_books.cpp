@@ -16,9 +16,10 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
     return std::chrono::duration<double>(to - from).count();
 }
 
-} // namespace
+}   // namespace
 
-RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line) : setup_(std::move(setup)) {
+RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line)
+    : setup_(std::move(setup)) {
     Checkpoint const* const from = setup_.checkpoint ? &*setup_.checkpoint : nullptr;
     // The configuration comes last: a directory holds a run as soon as it has one, and then has all that it needs.
     ExperimentConfig kept = setup_.order.config;
@@ -103,7 +104,8 @@ void RunBooks::close(EvolutionState const& state, RunStatus status, std::string 
     manifest.best_balls = best.birth->balls;
     manifest.best = text(best.id());
     manifest.outputs.clear();
-    for (std::string_view const output : {run_file::config, run_file::arena, run_file::progress, run_file::lineage, run_file::all_individuals, run_file::checkpoint})
+    for (std::string_view const output : {run_file::config, run_file::arena, run_file::progress, run_file::lineage,
+                                          run_file::all_individuals, run_file::checkpoint})
         if (std::string const path = setup_.file(output); std::filesystem::exists(path))
             manifest.outputs.push_back(record_of("output", path, std::string{output}));
     RunSession& session = manifest.sessions.back();
@@ -114,4 +116,4 @@ void RunBooks::close(EvolutionState const& state, RunStatus status, std::string 
     write_manifest_now();
 }
 
-} // namespace lore
+}   // namespace lore

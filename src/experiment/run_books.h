@@ -45,4 +45,4 @@ private:
     double filing_seconds_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -54,4 +54,4 @@ RunDirectory open_run(std::string const& path) {
     return run;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -76,7 +76,7 @@ void refuse_remains(RunSetup const& setup) {
 void start_anew(RunSetup& setup, RunOptions const& options) {
     if (options.config_path.empty())
         throw UsageError(fmt::format("nothing to start in {}", options.directory), "no configuration was given",
-                         "Name one, such as jobs/source.toml.");
+                         "Name one, such as jobs/tasks/source.toml.");
     setup.order.config = read_config(options.config_path, options.overrides);
     setup.order.arena_text = arena_text(setup.order.config.arena);
     take_knowledge(setup, options.knowledge_base);
@@ -200,7 +200,7 @@ void settle(PreparedRun& run, RunOptions const& options) {
     run.context = context_of(setup.order);
 }
 
-} // namespace
+}   // namespace
 
 DirectoryLock::DirectoryLock(std::string const& directory) {
     std::string const path = (fs::path{directory} / run_file::lock).string();
@@ -250,4 +250,4 @@ PreparedRun prepare_run(RunOptions const& options) {
     return run;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -28,10 +28,10 @@ struct RunSetup {
     std::string directory;
     WorkOrder order;
     std::uint64_t seed = 1;
-    std::uint64_t digest = 0;              ///< of all that results depend on
+    std::uint64_t digest = 0;   ///< of all that results depend on
     bool archive_all = false;
-    Manifest manifest;                     ///< inputs and former sessions
-    std::optional<Checkpoint> checkpoint;  ///< to go on from
+    Manifest manifest;                      ///< inputs and former sessions
+    std::optional<Checkpoint> checkpoint;   ///< to go on from
     std::string warning;
     bool already_done = false;
 
@@ -49,4 +49,4 @@ struct PreparedRun {
 /// Error: another process has the directory, or a file cannot be read or made.
 PreparedRun prepare_run(RunOptions const&);
 
-} // namespace lore
+}   // namespace lore

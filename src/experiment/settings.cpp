@@ -19,62 +19,74 @@ public:
     void section(std::string name) { section_ = std::move(name); }
 
     void add(std::string key, int& value, int least, int most, std::string_view doc) {
-        push(key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
-             [=, &value](TomlTable const& table) {
-                 if (auto const read = table.integer(key, least, most)) value = static_cast<int>(*read);
-             },
-             [&value] { return fmt::format("{}", value); });
+        push(
+            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+            [=, &value](TomlTable const& table) {
+                if (auto const read = table.integer(key, least, most)) value = static_cast<int>(*read);
+            },
+            [&value] { return fmt::format("{}", value); });
     }
     template <class Real>
-        requires std::is_floating_point_v<Real>
+    requires std::is_floating_point_v<Real>
     void add(std::string key, Real& value, double least, double most, std::string_view doc) {
-        push(key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
-             [=, &value](TomlTable const& table) {
-                 if (auto const read = table.number(key, least, most)) value = static_cast<Real>(*read);
-             },
-             [&value] { return fmt::format("{}", value); });
+        push(
+            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+            [=, &value](TomlTable const& table) {
+                if (auto const read = table.number(key, least, most)) value = static_cast<Real>(*read);
+            },
+            [&value] { return fmt::format("{}", value); });
     }
     void add(std::string key, bool& value, std::string_view doc) {
-        push(key, std::string{doc}, Setting::Kind::value,
-             [=, &value](TomlTable const& table) { if (auto const read = table.boolean(key)) value = *read; },
-             [&value] { return value ? "true" : "false"; });
+        push(
+            key, std::string{doc}, Setting::Kind::value,
+            [=, &value](TomlTable const& table) {
+                if (auto const read = table.boolean(key)) value = *read;
+            },
+            [&value] { return value ? "true" : "false"; });
     }
     void add(std::string key, std::string& value, std::string_view doc) {
-        push(key, std::string{doc}, Setting::Kind::text,
-             [=, &value](TomlTable const& table) { if (auto read = table.string(key)) value = *std::move(read); },
-             [&value] { return quoted(value); });
+        push(
+            key, std::string{doc}, Setting::Kind::text,
+            [=, &value](TomlTable const& table) {
+                if (auto read = table.string(key)) value = *std::move(read);
+            },
+            [&value] { return quoted(value); });
     }
     /// A choice, written as its name; `parse` throws UsageError for an unknown one.
     template <class Choice>
     void add(std::string key, Choice& value, Choice (*parse)(std::string_view), std::string_view doc) {
-        push(key, std::string{doc}, Setting::Kind::text,
-             [=, &value](TomlTable const& table) {
-                 auto const read = table.string(key);
-                 if (!read) return;
-                 try { value = parse(*read); } catch (UsageError const& error) { table.fail(key, error.what()); }
-             },
-             [&value] { return quoted(name(value)); });
+        push(
+            key, std::string{doc}, Setting::Kind::text,
+            [=, &value](TomlTable const& table) {
+                auto const read = table.string(key);
+                if (!read) return;
+                try {
+                    value = parse(*read);
+                } catch (UsageError const& error) { table.fail(key, error.what()); }
+            },
+            [&value] { return quoted(name(value)); });
     }
     template <class Choice>
     void add(std::string key, std::vector<Choice>& values, Choice (*parse)(std::string_view), std::string_view doc) {
-        push(key, std::string{doc}, Setting::Kind::list,
-             [=, &values](TomlTable const& table) {
-                 auto const read = table.strings(key);
-                 if (!read) return;
-                 if (read->empty()) table.fail(key, "the list is empty", "Name at least one.");
-                 std::vector<Choice> parsed;
-                 for (std::string const& word : *read) {
-                     try {
-                         parsed.push_back(parse(word));
-                     } catch (UsageError const& error) { table.fail(key, error.what()); }
-                 }
-                 values = std::move(parsed);
-             },
-             [&values] {
-                 std::vector<std::string> words;
-                 for (Choice value : values) words.push_back(quoted(name(value)));
-                 return fmt::format("[{}]", fmt::join(words, ", "));
-             });
+        push(
+            key, std::string{doc}, Setting::Kind::list,
+            [=, &values](TomlTable const& table) {
+                auto const read = table.strings(key);
+                if (!read) return;
+                if (read->empty()) table.fail(key, "the list is empty", "Name at least one.");
+                std::vector<Choice> parsed;
+                for (std::string const& word : *read) {
+                    try {
+                        parsed.push_back(parse(word));
+                    } catch (UsageError const& error) { table.fail(key, error.what()); }
+                }
+                values = std::move(parsed);
+            },
+            [&values] {
+                std::vector<std::string> words;
+                for (Choice value : values) words.push_back(quoted(name(value)));
+                return fmt::format("[{}]", fmt::join(words, ", "));
+            });
     }
 
 private:
@@ -103,7 +115,7 @@ private:
 
 constexpr int any = std::numeric_limits<int>::max();
 
-} // namespace
+}   // namespace
 
 std::vector<Setting> settings_of(ExperimentConfig& config) {
     Description d;
@@ -161,4 +173,4 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     return std::move(d.settings);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -15,7 +15,7 @@ struct Setting {
 
     std::string section;   ///< "" for the keys of the run itself
     std::string key;
-    std::string doc;       ///< meaning, unit in brackets, range
+    std::string doc;   ///< meaning, unit in brackets, range
     Kind kind = Kind::value;
     std::function<void(TomlTable const&)> read;   ///< from the table of its section, if the key is there
     std::function<std::string()> text;            ///< the present value as TOML
@@ -26,4 +26,4 @@ struct Setting {
 /// All settings in the order of config.toml, bound to `config`: valid as long as it, and only at its address.
 std::vector<Setting> settings_of(ExperimentConfig& config);
 
-} // namespace lore
+}   // namespace lore

@@ -49,7 +49,7 @@ void turn_into_errors() {
     set_action(SIGPIPE, SIG_IGN);
 }
 
-} // namespace
+}   // namespace
 
 void install_stop_handlers() {
     for (int const number : stop_signals) set_action(number, on_stop_signal);
@@ -66,4 +66,4 @@ std::string stop_request() {
     return number == 0 ? "" : fmt::format("signal {} ({})", number, ::strsignal(number));
 }
 
-} // namespace lore
+}   // namespace lore

@@ -17,4 +17,4 @@ struct MasterTimes {
 /// A table in percent of the wall time, a row a rank.
 std::string time_report(std::vector<RankTimes> const&, MasterTimes const&);
 
-} // namespace lore
+}   // namespace lore

@@ -104,9 +104,9 @@ std::string verify_table(std::string const& path) {
 
 std::string verify_directory(std::string const& path) {
     constexpr std::array always{run_file::config, run_file::arena, run_file::manifest};
-    constexpr std::array known{run_file::config, run_file::arena, run_file::progress, run_file::lineage,
-                               run_file::all_individuals, run_file::checkpoint, run_file::older_checkpoint,
-                               run_file::failed_genome, run_file::manifest};
+    constexpr std::array known{run_file::config,           run_file::arena,           run_file::progress,
+                               run_file::lineage,          run_file::all_individuals, run_file::checkpoint,
+                               run_file::older_checkpoint, run_file::failed_genome,   run_file::manifest};
     auto const is_there = [&](char const* file) { return std::filesystem::exists(std::filesystem::path{path} / file); };
     if (std::none_of(known.begin(), known.end(), is_there))
         throw Error(fmt::format("cannot verify {}", path), "no run is in this directory", "Check the path.");
@@ -123,7 +123,7 @@ std::string verify_directory(std::string const& path) {
     return fmt::format("run directory with {}", fmt::join(whole, ", "));
 }
 
-} // namespace
+}   // namespace
 
 std::string verify(std::string const& path) {
     std::filesystem::path const file{path};
@@ -143,4 +143,4 @@ std::string verify(std::string const& path) {
     return verify_container(path);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -24,11 +24,12 @@ BuildInformation build_information() {
 std::string version_text(std::string_view program) {
     BuildInformation const build = build_information();
     Isa const isa = active_isa();
-    std::string text = fmt::format("{} {} (commit {})\ncompiled by {}, {}\ninstruction set {} ({} floats a vector; detected {})\n", program,
-                                   build.version, build.commit, build.compiler, build.build_type, name(isa), lanes_of(isa), name(detected_isa()));
+    std::string text = fmt::format(
+        "{} {} (commit {})\ncompiled by {}, {}\ninstruction set {} ({} floats a vector; detected {})\n", program,
+        build.version, build.commit, build.compiler, build.build_type, name(isa), lanes_of(isa), name(detected_isa()));
     for (auto const& [library, version] : build.libraries) text += fmt::format("{} {}\n", library, version);
     text.pop_back();
     return text;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -40,23 +40,26 @@ void check_fit(KnowledgeBase const& base, ExperimentConfig const& config, std::s
     };
     KnowledgeConfig const &theirs = base.config(), &ours = config.knowledge;
     if (theirs.window_length != ours.window_length)
-        refuse(fmt::format("its windows have {} steps, knowledge.window_length is {}", theirs.window_length, ours.window_length),
+        refuse(fmt::format("its windows have {} steps, knowledge.window_length is {}", theirs.window_length,
+                           ours.window_length),
                "Build another, or set knowledge.window_length.");
     if (theirs.match_threshold != ours.match_threshold)
-        refuse(fmt::format("its threshold is {}, knowledge.match_threshold is {}", theirs.match_threshold, ours.match_threshold),
+        refuse(fmt::format("its threshold is {}, knowledge.match_threshold is {}", theirs.match_threshold,
+                           ours.match_threshold),
                "Build another, or set knowledge.match_threshold.");
     if (base.size() == 0) refuse("it has no features", "Build another.");
 }
 
-} // namespace
+}   // namespace
 
 EvaluationContext context_of(WorkOrder const& order) {
-    EvaluationContext context{parse_arena(order.arena_text, order.config.arena, order.config.task), order.config.episode, std::nullopt};
+    EvaluationContext context{parse_arena(order.arena_text, order.config.arena, order.config.task),
+                              order.config.episode, std::nullopt};
     if (!order.knowledge_path.empty()) {
         KnowledgeBase base = read_knowledge_base(order.knowledge_path);
         if (checksum_text(checksum_of_file(order.knowledge_path)) != order.knowledge_checksum)
-            throw Error(fmt::format("{} on {} is not the file that rank 0 has", order.knowledge_path, host_name()), "its checksum differs",
-                        "Put it where all ranks see the same file.");
+            throw Error(fmt::format("{} on {} is not the file that rank 0 has", order.knowledge_path, host_name()),
+                        "its checksum differs", "Put it where all ranks see the same file.");
         check_fit(base, order.config, order.knowledge_path);
         context.shaper.emplace(std::move(base));
     }
@@ -64,7 +67,9 @@ EvaluationContext context_of(WorkOrder const& order) {
 }
 
 StreamEvaluation evaluation_in(EvaluationContext context) {
-    return [context = std::make_shared<EvaluationContext const>(std::move(context))](EvaluationFeed& feed) { evaluate_stream(*context, feed); };
+    return [context = std::make_shared<EvaluationContext const>(std::move(context))](EvaluationFeed& feed) {
+        evaluate_stream(*context, feed);
+    };
 }
 
 std::vector<std::string> give_order(Session const& session, WorkOrder const& order) {
@@ -100,4 +105,4 @@ void work_for_rank_0(Session const& session) {
     serve(session.world(), evaluation);
 }
 
-} // namespace lore
+}   // namespace lore

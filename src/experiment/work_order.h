@@ -25,4 +25,4 @@ StreamEvaluation evaluation_in(EvaluationContext);
 /// Throws Error with the first complaint; everybody is released then.
 std::vector<std::string> give_order(Session const&, WorkOrder const&);
 
-} // namespace lore
+}   // namespace lore

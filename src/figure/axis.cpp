@@ -19,4 +19,4 @@ std::vector<double> ticks(double least, double most, int count) {
 
 std::string tick_label(double value) { return std::abs(value) < 1e-12 ? "0" : fmt::format("{:.6g}", value); }
 
-} // namespace lore
+}   // namespace lore

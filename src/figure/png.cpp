@@ -36,7 +36,7 @@ cairo_status_t append(void* out, unsigned char const* data, unsigned length) {
     return CAIRO_STATUS_SUCCESS;
 }
 
-} // namespace
+}   // namespace
 
 std::string render_png(std::string_view svg, double scale) {
     GError* error = nullptr;
@@ -64,4 +64,4 @@ std::string render_png(std::string_view svg, double scale) {
     return png;
 }
 
-} // namespace lore
+}   // namespace lore

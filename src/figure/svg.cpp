@@ -68,7 +68,7 @@ std::string coordinates(std::span<SvgPoint const> points) {
     return text;
 }
 
-} // namespace
+}   // namespace
 
 SvgDocument::SvgDocument(double width, double height, std::string_view title) {
     text_ = fmt::format(
@@ -91,8 +91,8 @@ void SvgDocument::polygon(std::span<SvgPoint const> points, Paint const& paint) 
     text_ += fmt::format("<polygon points=\"{}\"{}/>\n", coordinates(points), attributes(paint));
 }
 
-void SvgDocument::circle(SvgPoint centre, double radius, Paint const& paint) {
-    text_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>\n", number(centre.x), number(centre.y),
+void SvgDocument::circle(SvgPoint center, double radius, Paint const& paint) {
+    text_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>\n", number(center.x), number(center.y),
                          number(radius), attributes(paint));
 }
 
@@ -124,4 +124,4 @@ void SvgDocument::end_group() { text_ += "</g>\n"; }
 
 std::string SvgDocument::finish() && { return std::move(text_) + "</svg>\n"; }
 
-} // namespace lore
+}   // namespace lore

@@ -21,14 +21,18 @@ constexpr double plan_width = 780, left_margin = 66, top_margin = 46, right_marg
 constexpr double bend = 0.3;   // that nobody sees
 constexpr double axis_room = 48, strip_height = 130, bottom_margin = 52, legend_height = 26;
 
-constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", grey = "#8c8c8c",
+constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", gray = "#8c8c8c",
                            ball_color = "#e8a800", basket_color = "#2f9e6e", robot_red = "#e0452f";
 
 /// White to dark blue in steps of about equal lightness (Brewer's "Blues" with a white start).
 std::string blue(double share) {
-    static constexpr std::array<std::array<double, 3>, 7> stops{
-        {{255, 255, 255}, {222, 235, 247}, {171, 208, 230}, {107, 174, 214}, {55, 135, 192}, {16, 91, 164},
-         {8, 48, 107}}};
+    static constexpr std::array<std::array<double, 3>, 7> stops{{{255, 255, 255},
+                                                                 {222, 235, 247},
+                                                                 {171, 208, 230},
+                                                                 {107, 174, 214},
+                                                                 {55, 135, 192},
+                                                                 {16, 91, 164},
+                                                                 {8, 48, 107}}};
     double const at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
     std::size_t const i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     double const f = at - static_cast<double>(i);
@@ -42,8 +46,8 @@ std::string blue(double share) {
 class Painter {
 public:
     Painter(Arena const& arena, TrajectoryPicture const& picture)
-        : arena_(arena), picture_(picture), scale_(plan_width / arena.width),
-          x_{0, arena.width, left_margin, left_margin + plan_width},
+        : arena_(arena), picture_(picture),
+          scale_(plan_width / arena.width), x_{0, arena.width, left_margin, left_margin + plan_width},
           y_{0, arena.height, top_margin, top_margin + scale_ * arena.height},
           svg_(left_margin + plan_width + right_margin, height(), picture.title) {}
 
@@ -59,7 +63,7 @@ public:
         paint_axes();
         paint_legend();
         if (!picture_.values.empty()) {
-            paint_colour_bar();
+            paint_color_bar();
             paint_strip();
         }
         return std::move(svg_).finish();
@@ -76,9 +80,7 @@ private:
     SvgPoint place(Point const& p) const { return place(p.x, p.y); }
     /// Where all values are equal they are at the low end of a scale of 1.
     double highest() const { return picture_.highest > picture_.lowest ? picture_.highest : picture_.lowest + 1; }
-    double share(double value) const {
-        return (value - picture_.lowest) / (highest() - picture_.lowest);
-    }
+    double share(double value) const { return (value - picture_.lowest) / (highest() - picture_.lowest); }
 
     void paint_wall(Rect const& wall, Paint const& paint) {
         svg_.rect(place(wall.x0, wall.y0), (wall.x1 - wall.x0) * scale_, (wall.y1 - wall.y0) * scale_, paint);
@@ -89,8 +91,7 @@ private:
             paint_wall(door, {.fill = "#f2f2f2", .stroke = wall_color, .width = 1.2, .dashes = "5 3"});
     }
     void paint_basket() {
-        svg_.circle(place(arena_.basket_centre), arena_.basket_radius * scale_,
-                    {.fill = "#d9f0e5"});
+        svg_.circle(place(arena_.basket_center), arena_.basket_radius * scale_, {.fill = "#d9f0e5"});
     }
     /// Balls, basket lights and the switch, with names; above the trajectory, because they are small.
     void paint_lights() {
@@ -99,14 +100,14 @@ private:
             if (!at_start) svg_.circle(place(ball), 11, {.stroke = ink, .width = 1, .dashes = "3 3"});
             svg_.circle(place(ball), 6, {.fill = ball_color, .stroke = ink, .width = 1});
         }
-        svg_.circle(place(arena_.basket_centre), arena_.basket_radius * scale_,
+        svg_.circle(place(arena_.basket_center), arena_.basket_radius * scale_,
                     {.stroke = basket_color, .width = 1.4, .dashes = "4 3"});
         for (Point const& light : arena_.basket_lights)
             svg_.circle(place(light), 4, {.fill = basket_color, .stroke = ink, .width = 0.8});
-        Point centre{};
-        for (Point const& light : arena_.basket_lights) centre = {centre.x + light.x, centre.y + light.y};
+        Point center{};
+        for (Point const& light : arena_.basket_lights) center = {center.x + light.x, center.y + light.y};
         float const lights = static_cast<float>(arena_.basket_lights.size());
-        name(place(centre.x / lights, centre.y / lights), "basket");
+        name(place(center.x / lights, center.y / lights), "basket");
         SvgPoint const lamp = place(arena_.switch_position);
         svg_.rect({lamp.x - 6, lamp.y - 6}, 12, 12, {.fill = "#8e4fb0", .stroke = ink, .width = 1});
         name(lamp, "switch");
@@ -170,7 +171,7 @@ private:
             if (picture_.values.empty()) {
                 svg_.polyline(points, {.stroke = blue(0.8), .width = 1.4});
             } else if (window >= picture_.values.size() || std::isnan(picture_.values[window])) {
-                svg_.polyline(points, {.stroke = grey, .width = 1});
+                svg_.polyline(points, {.stroke = gray, .width = 1});
             } else {
                 svg_.polyline(points, {.stroke = "#4d4d4d", .width = 4});
                 svg_.polyline(points, {.stroke = blue(share(picture_.values[window])), .width = 2.8});
@@ -216,12 +217,12 @@ private:
             entry("door");
         }
         if (picture_.values.empty()) return;
-        svg_.line({x - 6, y}, {x + 18, y}, {.stroke = grey, .width = 1});
+        svg_.line({x - 6, y}, {x + 18, y}, {.stroke = gray, .width = 1});
         x += 24;
         entry(fmt::format("not in the knowledge base ({})", tick_label(picture_.not_found)));
     }
 
-    void paint_colour_bar() {
+    void paint_color_bar() {
         double const x = x_.last + 24, top = y_.first + 30, bottom = y_.last - 30, width = 16;
         constexpr int slices = 64;
         Axis const axis{picture_.lowest, highest(), bottom, top};
@@ -259,7 +260,7 @@ private:
             double const y = value.at(found ? picture_.values[window] : picture_.not_found);
             stairs.push_back({time.at(from), y});
             stairs.push_back({time.at(to), y});
-            if (!found) svg_.line({time.at(from), y}, {time.at(to), y}, {.stroke = grey, .width = 5});
+            if (!found) svg_.line({time.at(from), y}, {time.at(to), y}, {.stroke = gray, .width = 5});
         }
         svg_.polyline(stairs, {.stroke = blue(0.85), .width = 1.2});
         svg_.rect({x_.first, top}, x_.last - x_.first, strip_height, {.stroke = ink});
@@ -275,11 +276,11 @@ private:
     SvgDocument svg_;
 };
 
-} // namespace
+}   // namespace
 
 std::string draw_trajectory(Arena const& arena, TrajectoryPicture const& picture) {
     assert(picture.poses.size() == picture.carrying.size() && picture.window_length > 0);
     return Painter{arena, picture}.paint();
 }
 
-} // namespace lore
+}   // namespace lore

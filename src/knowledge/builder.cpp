@@ -109,4 +109,4 @@ KnowledgeBase KnowledgeBuilder::finish(Provenance provenance) && {
         {std::move(windows.bits), std::move(windows.values), std::move(means), std::move(sums_), std::move(counts_)}};
 }
 
-} // namespace lore
+}   // namespace lore

@@ -14,7 +14,10 @@ namespace lore {
 
 namespace {
 
-template <class T> std::vector<T> copy_of(std::span<T const> items) { return {items.begin(), items.end()}; }
+template <class T>
+std::vector<T> copy_of(std::span<T const> items) {
+    return {items.begin(), items.end()};
+}
 
 std::vector<int> features_where(KnowledgeBase const& base, auto const& holds) {
     std::vector<int> features;
@@ -39,7 +42,7 @@ KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, 
     return KnowledgeBase{base.config(), std::move(provenance), std::move(kept)};
 }
 
-} // namespace
+}   // namespace
 
 KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed) {
     KnowledgeArrays arrays{copy_of(base.parts().bits), copy_of(base.parts().windows), copy_of(base.values()),
@@ -91,4 +94,4 @@ KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase 
     return keep(base, features, fmt::format("consensus with {} more", others.size()));
 }
 
-} // namespace lore
+}   // namespace lore

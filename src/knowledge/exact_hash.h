@@ -16,4 +16,4 @@ LORE_INLINE std::uint64_t hash_slot(std::uint64_t const* words, std::uint64_t co
     return (hash * 0x9e3779b97f4a7c15u) >> (64 - bits);
 }
 
-} // namespace lore::exact
+}   // namespace lore::exact

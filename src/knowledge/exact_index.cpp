@@ -19,7 +19,7 @@
 // 2. Cut the bits into D + 1 blocks: two windows that differ in at most D bits agree in at least one block. A hash
 //    table per block finds all who agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to block
 //    i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks of
-//    whole channels, which change seldom, or of neighbouring steps. Blocks of a few bits select nothing; then one
+//    whole channels, which change seldom, or of neighboring steps. Blocks of a few bits select nothing; then one
 //    bucket holds all features.
 // 3. The sum of squares over n steps is at least n times the square of the means' difference. Sums of each channel over
 //    each half, scaled and rounded to integers, bound the continuous part from below.
@@ -55,7 +55,7 @@ int most_differing_bits(KnowledgeConfig const& config) {
 /// add, the bound is (x + s)^2, which never exceeds (1 + e) x^2 + (1 + 1/e) s^2; with this e it is hardly looser.
 exact::SumBound bound_of_sums(int steps, int numbers) {
     constexpr double e = 0.05;
-    double const rounding = 0.5 + steps * 0x1p-15;   // of one number, sum and quantisation
+    double const rounding = 0.5 + steps * 0x1p-15;   // of one number, sum and quantization
     double const slack = 2 * rounding * std::sqrt(static_cast<double>(numbers));
     double const scale = static_cast<double>(exact::summary_scale) * exact::summary_scale / steps;
     return {static_cast<float>((1 + e) * scale), static_cast<float>((1 + 1 / e) * slack * slack + 1)};
@@ -202,8 +202,7 @@ private:
         exact::Kernel const& kernel = index_.kernel();
         kernel.pack(index_.shape(), window.bits.data(), words_.data());
         Digest digest{};
-        exact::Key const key =
-            kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest);
+        exact::Key const key = kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest);
         visits_.resize(static_cast<std::size_t>(index_.shape().tables));
         std::size_t const room = index_.largest_bucket() + exact::spare_numbers;
         if (numbers_.size() < room) numbers_.resize(room * 2);
@@ -266,10 +265,10 @@ private:
 
 std::unique_ptr<FeatureSearch> ExactIndex::search() const { return std::make_unique<ExactSearch>(*this); }
 
-} // namespace
+}   // namespace
 
 std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const& config) {
     return std::make_unique<ExactIndex>(config);
 }
 
-} // namespace lore
+}   // namespace lore

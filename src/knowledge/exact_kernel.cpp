@@ -45,7 +45,7 @@ LORE_INLINE void add_up(float const* values, int first, int last, float (&sums)[
 }
 
 /// A value outside 0 .. 1 moves to the edge, which only brings two windows nearer to each other.
-LORE_INLINE std::uint8_t quantised(float sum, float scale) {
+LORE_INLINE std::uint8_t quantized(float sum, float scale) {
     float number = sum * scale + 0.5f;
     number = number > 0 ? number : 0;
     number = number < summary_scale ? number : static_cast<float>(summary_scale);
@@ -60,7 +60,7 @@ LORE_INLINE void add_up_halves(Shape const& shape, float const* values, float (&
 LORE_INLINE void put_summary(Shape const& shape, float const (&sums)[2][continuous_count], Digest& digest) {
     for (int half = 0; half < 2; ++half)
         for (int channel = 0; channel < continuous_count; ++channel)
-            digest.summary[half * continuous_count + channel] = quantised(sums[half][channel], shape.scales[half]);
+            digest.summary[half * continuous_count + channel] = quantized(sums[half][channel], shape.scales[half]);
 }
 
 void summarize(Shape const& shape, float const* values, Digest& digest) {
@@ -75,7 +75,7 @@ Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float con
     put_summary(shape, sums, digest);
     Key key{};
     for (int channel = 0; channel < continuous_count; ++channel)
-        key.sums[channel] = quantised(sums[0][channel] + sums[1][channel], shape.key_scale);
+        key.sums[channel] = quantized(sums[0][channel] + sums[1][channel], shape.key_scale);
     int ones = 0;
     for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
     key.ones = static_cast<std::uint8_t>(ones < 255 ? ones : 255);
@@ -209,8 +209,8 @@ Nearest closest(GrowingView const& view, Query const& query, Digest const& summa
 
     // The smallest bucket first: often one is enough.
     for (int table = 0; table < shape.tables; ++table) {
-        std::uint64_t const slot = hash_slot(query.words, view.tables.masks + table * shape.words, shape.words,
-                                             view.tables.slot_bits);
+        std::uint64_t const slot =
+            hash_slot(query.words, view.tables.masks + table * shape.words, shape.words, view.tables.slot_bits);
         Bucket const bucket = view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
         __builtin_prefetch(view.keys + bucket.start);
         __builtin_prefetch(view.numbers + bucket.start);
@@ -236,8 +236,7 @@ Nearest closest(GrowingView const& view, Query const& query, Digest const& summa
         for (int visit = 0; visit < visits; ++visit) {
             std::uint64_t const* const mask = view.tables.masks + scratch.visits[visit].table * shape.words;
             std::uint64_t differing = 0;
-            for (int word = 0; word < shape.words; ++word)
-                differing |= (query.words[word] ^ record[word]) & mask[word];
+            for (int word = 0; word < shape.words; ++word) differing |= (query.words[word] ^ record[word]) & mask[word];
             if (differing == 0) return true;
         }
         return false;
@@ -249,7 +248,8 @@ Nearest closest(GrowingView const& view, Query const& query, Digest const& summa
         if (best.squared_distance < static_cast<float>(seen)) break;
         auto const most_bits = [&] {   // in float first: a threshold may be beyond any int
             return best.squared_distance < static_cast<float>(shape.most_differing)
-                     ? static_cast<int>(best.squared_distance) : shape.most_differing;
+                       ? static_cast<int>(best.squared_distance)
+                       : shape.most_differing;
         };
         auto const left = [&](int differing) {
             return best.squared_distance * (1 + shape.relative_error) - static_cast<float>(differing);
@@ -348,8 +348,8 @@ Nearest nearest(FixedView const& view, Query const& query, Candidate const* cand
     return best;
 }
 
-} // namespace
+}   // namespace
 
 Kernel kernel() { return {pack, summarize, summarize_with_key, closest, within, promising, nearest}; }
 
-} // namespace lore::exact::LORE_ISA_NAMESPACE
+}   // namespace lore::exact::LORE_ISA_NAMESPACE

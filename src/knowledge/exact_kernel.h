@@ -10,11 +10,11 @@
 // pointers only: see core/lanes.h for why.
 namespace lore::exact {
 
-/// A window's summary: the sums of each continuous channel over each half of its steps, quantised.
-inline constexpr int summary_size  = 2 * continuous_count;
+/// A window's summary: the sums of each continuous channel over each half of its steps, quantized.
+inline constexpr int summary_size = 2 * continuous_count;
 inline constexpr int summary_scale = 255;   ///< its largest number
 
-/// Says how far quantised sums of two windows may lie from each other: at most slope * left + offset, if the squares of
+/// Says how far quantized sums of two windows may lie from each other: at most slope * left + offset, if the squares of
 /// the windows' differences add up to `left`.
 struct SumBound {
     float slope, offset;
@@ -27,14 +27,14 @@ struct SumBound {
 /// What is derived from a configuration once (exact_index.cpp explains the bounds).
 struct Shape {
     int window_length;
-    int words;            ///< 64-bit words that hold the binary channels of a window
-    int first_half;       ///< steps of the first half
-    float scales[2];      ///< of the sums of each half
-    float key_scale;      ///< of the sums of all steps
+    int words;         ///< 64-bit words that hold the binary channels of a window
+    int first_half;    ///< steps of the first half
+    float scales[2];   ///< of the sums of each half
+    float key_scale;   ///< of the sums of all steps
     int tables;
     int most_differing;   ///< bits
     float squared_threshold;
-    float relative_error; ///< of a squared distance in float
+    float relative_error;   ///< of a squared distance in float
     SumBound summary_bound, key_bound;
 };
 
@@ -46,7 +46,7 @@ struct Digest {
 static_assert(sizeof(Digest) == 16);
 
 /// Less, to pass over most features that share their bits with a window without looking at them: the sums of each
-/// continuous channel over all steps, quantised, and how many bits are set (255: so many or more).
+/// continuous channel over all steps, quantized, and how many bits are set (255: so many or more).
 struct Key {
     std::uint8_t sums[continuous_count];
     std::uint8_t ones;
@@ -67,8 +67,8 @@ LORE_INLINE constexpr int record_size(int pattern_words) {
 
 /// Hash tables: each feature is in one bucket of every table.
 struct Tables {
-    std::uint64_t const* masks;    ///< [table][word]: the bits that a table hashes
-    Bucket const* buckets;         ///< [table][2^slot_bits]
+    std::uint64_t const* masks;   ///< [table][word]: the bits that a table hashes
+    Bucket const* buckets;        ///< [table][2^slot_bits]
     int slot_bits;
 };
 
@@ -76,24 +76,24 @@ struct Tables {
 struct GrowingView {
     Shape shape;
     Tables tables;
-    Key const* keys;               ///< [place]
-    std::int32_t const* numbers;   ///< [place]: the feature
-    std::uint64_t const* records;  ///< [feature][record_size]
-    float const* values;           ///< [feature][step][6]
+    Key const* keys;                ///< [place]
+    std::int32_t const* numbers;    ///< [place]: the feature
+    std::uint64_t const* records;   ///< [feature][record_size]
+    float const* values;            ///< [feature][step][6]
 };
 
 /// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
 struct FixedView {
     Shape shape;
     Tables tables;
-    std::uint64_t const* records;  ///< [place][record_size]
-    float const* values;           ///< [feature][step][6]
-    std::int32_t const* limits;    ///< [differing bits]: largest summary distance of a match
+    std::uint64_t const* records;   ///< [place][record_size]
+    float const* values;            ///< [feature][step][6]
+    std::int32_t const* limits;     ///< [differing bits]: largest summary distance of a match
 };
 
 /// A window as it is compared with features. What it points to belongs to the caller.
 struct Query {
-    std::uint64_t const* words;    ///< its pattern
+    std::uint64_t const* words;   ///< its pattern
     float const* values;
 };
 
@@ -105,10 +105,10 @@ struct Visit {
 
 /// Memory that a search in a growing set needs.
 struct Scratch {
-    Visit* visits;                 ///< one a table
-    std::int32_t* numbers;         ///< room for the largest bucket and spare_numbers more
-    /// [2^recent_bits]: what windows whose bits have this hash matched last, or -1; it is tried first, because the nearer
-    /// a match is that is already known, the less there is to look at.
+    Visit* visits;           ///< one a table
+    std::int32_t* numbers;   ///< room for the largest bucket and spare_numbers more
+    /// [2^recent_bits]: what windows whose bits have this hash matched last, or -1; it is tried first, because the
+    /// nearer a match is that is already known, the less there is to look at.
     std::int32_t* recent;
 };
 inline constexpr int recent_bits = 16;
@@ -117,11 +117,11 @@ inline constexpr int spare_numbers = 8;
 /// A feature that may lie within the threshold.
 struct Candidate {
     Digest digest;
-    std::int32_t differing;        ///< bits
+    std::int32_t differing;   ///< bits
 };
 
 struct Nearest {
-    std::int32_t feature;          ///< -1: none
+    std::int32_t feature;   ///< -1: none
     float squared_distance;
 };
 
@@ -143,8 +143,14 @@ struct Kernel {
     Nearest (*nearest)(FixedView const&, Query const&, Candidate const*, int count);
 };
 
-namespace isa_baseline { Kernel kernel(); }
-namespace isa_v3 { Kernel kernel(); }
-namespace isa_v4 { Kernel kernel(); }
+namespace isa_baseline {
+Kernel kernel();
+}
+namespace isa_v3 {
+Kernel kernel();
+}
+namespace isa_v4 {
+Kernel kernel();
+}
 
-} // namespace lore::exact
+}   // namespace lore::exact

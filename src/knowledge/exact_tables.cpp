@@ -20,7 +20,7 @@ int words_of_a_mask(std::vector<std::uint64_t> const& masks, int tables) {
     return static_cast<int>(masks.size()) / tables;
 }
 
-} // namespace
+}   // namespace
 
 std::uint64_t* Records::add() {
     words_.resize(words_.size() + size_);
@@ -45,8 +45,7 @@ void GrowingTables::insert(int table, std::uint64_t const* pattern, Key const& k
         std::uint32_t const start = take_room(std::max(1u, bucket.count * 2));
         std::copy_n(keys_.begin() + bucket.start, bucket.count, keys_.begin() + start);
         std::copy_n(numbers_.begin() + bucket.start, bucket.count, numbers_.begin() + start);
-        if (bucket.count > 0)
-            free_[static_cast<std::size_t>(std::countr_zero(bucket.count))].push_back(bucket.start);
+        if (bucket.count > 0) free_[static_cast<std::size_t>(std::countr_zero(bucket.count))].push_back(bucket.start);
         bucket.start = start;
     }
     keys_[bucket.start + bucket.count] = key;
@@ -108,4 +107,4 @@ FixedTables::FixedTables(int tables, std::vector<std::uint64_t> const& masks, Re
     });
 }
 
-} // namespace lore::exact
+}   // namespace lore::exact

@@ -44,10 +44,10 @@ private:
 
     int tables_, words_;
     std::vector<std::uint64_t> const* masks_;
-    int slot_bits_ = 8;                     ///< always at least as many slots as features
-    std::vector<Bucket> buckets_;           ///< with room for as many places as the next power of two
-    std::vector<Key> keys_;                 ///< [place]
-    std::vector<std::int32_t> numbers_;     ///< [place]
+    int slot_bits_ = 8;                   ///< always at least as many slots as features
+    std::vector<Bucket> buckets_;         ///< with room for as many places as the next power of two
+    std::vector<Key> keys_;               ///< [place]
+    std::vector<std::int32_t> numbers_;   ///< [place]
     std::array<std::vector<std::uint32_t>, 32>
         free_;   ///< room left behind by buckets that moved, by log2 of its places
     std::size_t largest_ = 0;
@@ -65,7 +65,7 @@ private:
     std::vector<std::uint64_t> const* masks_;
     int slot_bits_;
     std::vector<Bucket> buckets_;
-    std::vector<std::uint64_t> records_;    ///< [place][record_size]
+    std::vector<std::uint64_t> records_;   ///< [place][record_size]
 };
 
-} // namespace lore::exact
+}   // namespace lore::exact

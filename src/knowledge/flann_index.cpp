@@ -1,7 +1,7 @@
 #include <lore/knowledge/index.h>
 
 // The only door to FLANN (1.9): its L2 is the squared distance, its matrices do not own memory, it crashes on an empty
-// data set, accepts NaN, and leaves garbage where more neighbours are asked for than there are points. Nothing of that
+// data set, accepts NaN, and leaves garbage where more neighbors are asked for than there are points. Nothing of that
 // passes this file.
 #include <flann/flann.hpp>
 
@@ -55,16 +55,16 @@ public:
         if (size_ == 0) return {};
         row.resize(columns_);
         flatten(window, row.data());
-        int neighbour = -1;
+        int neighbor = -1;
         float flann_distance = 0;
         flann::Matrix<float> const query{row.data(), 1, columns_};
-        flann::Matrix<int> neighbours{&neighbour, 1, 1};
+        flann::Matrix<int> neighbors{&neighbor, 1, 1};
         flann::Matrix<float> distances{&flann_distance, 1, 1};
-        if (forest_->knnSearch(query, neighbours, distances, 1, search_) < 1 || neighbour < 0 || neighbour >= size_)
+        if (forest_->knnSearch(query, neighbors, distances, 1, search_) < 1 || neighbor < 0 || neighbor >= size_)
             return {};
         // FLANN sums in an order of its own; what counts as a match is decided by our distance.
-        float const distance = squared_distance(window, features_.window(neighbour, config_.window_length));
-        return distance < config_.squared_threshold() ? Match{neighbour, distance} : Match{};
+        float const distance = squared_distance(window, features_.window(neighbor, config_.window_length));
+        return distance < config_.squared_threshold() ? Match{neighbor, distance} : Match{};
     }
 
 private:
@@ -99,11 +99,11 @@ private:
 
 std::unique_ptr<FeatureSearch> FlannIndex::search() const { return std::make_unique<FlannSearch>(*this); }
 
-} // namespace
+}   // namespace
 
 std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const& config, int trees, int checks) {
     assert(trees >= 1 && checks >= 1);
     return std::make_unique<FlannIndex>(config, trees, checks);
 }
 
-} // namespace lore
+}   // namespace lore

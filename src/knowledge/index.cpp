@@ -52,7 +52,7 @@ private:
 
 std::unique_ptr<FeatureSearch> ScanIndex::search() const { return std::make_unique<ScanSearch>(*this); }
 
-} // namespace
+}   // namespace
 
 void FeatureWindows::add(Window const& window) {
     for (std::uint16_t const word : window.bits) bits.push_back(word & window_bits_mask);
@@ -81,4 +81,4 @@ std::unique_ptr<FeatureIndex> make_index(IndexKind kind, KnowledgeConfig const& 
     return kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config);
 }
 
-} // namespace lore
+}   // namespace lore

@@ -12,7 +12,7 @@ KnowledgeBase::Parts owned(KnowledgeConfig const& config, Provenance provenance,
             kept->values, kept->reward_sums,     kept->counts, kept};
 }
 
-} // namespace
+}   // namespace
 
 KnowledgeBase::KnowledgeBase(Parts parts) : parts_(std::move(parts)) {
     [[maybe_unused]] std::size_t const features = parts_.values.size();
@@ -33,4 +33,4 @@ Window KnowledgeBase::window(int feature) const {
             parts_.windows.subspan(first * continuous_count, length * continuous_count)};
 }
 
-} // namespace lore
+}   // namespace lore

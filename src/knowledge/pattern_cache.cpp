@@ -11,7 +11,7 @@ namespace {
 
 constexpr int fewest_slot_bits = 10;
 
-} // namespace
+}   // namespace
 
 PatternCache::PatternCache(int words, std::size_t most_patterns, std::size_t most_candidates)
     : words_(static_cast<std::size_t>(words)), most_patterns_(most_patterns), most_candidates_(most_candidates) {
@@ -75,4 +75,4 @@ void PatternCache::grow() {
     }
 }
 
-} // namespace lore::exact
+}   // namespace lore::exact

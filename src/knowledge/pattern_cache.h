@@ -39,11 +39,11 @@ private:
 
     std::size_t words_, most_patterns_, most_candidates_;
     int slot_bits_ = 0;
-    std::vector<std::uint64_t> keys_;     ///< [slot][word]
-    std::vector<List> lists_;             ///< [slot]
-    std::vector<std::uint8_t> used_;      ///< [slot]
+    std::vector<std::uint64_t> keys_;   ///< [slot][word]
+    std::vector<List> lists_;           ///< [slot]
+    std::vector<std::uint8_t> used_;    ///< [slot]
     std::vector<Candidate> candidates_;
     std::size_t patterns_ = 0;
 };
 
-} // namespace lore::exact
+}   // namespace lore::exact

@@ -11,8 +11,8 @@ struct Shaper::State {
     KnowledgeBase base;
     std::unique_ptr<FeatureIndex> index;
     double highest = no_feature_value;
-    std::mutex mutex;                                    ///< guards idle
-    std::vector<std::unique_ptr<FeatureSearch>> idle;    ///< searches that nobody borrows now
+    std::mutex mutex;                                   ///< guards idle
+    std::vector<std::unique_ptr<FeatureSearch>> idle;   ///< searches that nobody borrows now
 };
 
 struct Shaper::Reader::Loan {
@@ -74,4 +74,4 @@ double Shaper::Reader::shaping(std::span<Window const> windows) {
     return state.best;
 }
 
-} // namespace lore
+}   // namespace lore

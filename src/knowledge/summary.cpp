@@ -24,4 +24,4 @@ ValueSummary summarize(std::span<double const> values, int bins) {
     return summary;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -14,8 +14,8 @@ std::vector<Window> windows_of(Trace const& trace, int window_length) {
     std::vector<Window> windows;
     windows.reserve(bits.size() / length);
     for (std::size_t first = 0; first + length <= bits.size(); first += length)
-        windows.push_back({bits.subspan(first, length),
-                           values.subspan(first * continuous_count, length * continuous_count)});
+        windows.push_back(
+            {bits.subspan(first, length), values.subspan(first * continuous_count, length * continuous_count)});
     return windows;
 }
 
@@ -35,4 +35,4 @@ float squared_distance(Window const& a, Window const& b) {
     return partial[0] + static_cast<float>(differing);
 }
 
-} // namespace lore
+}   // namespace lore

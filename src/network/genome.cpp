@@ -10,7 +10,7 @@ namespace {
 
 bool is_gene(float value) { return value >= 0.0f && value <= 1.0f; }   // false for NaN
 
-} // namespace
+}   // namespace
 
 std::string why_invalid(Genome const& genome) {
     int const hidden = genome.hidden_count();
@@ -43,10 +43,10 @@ Genome founder(Stream rng) {
     Genome genome;
     for (int input = 0; input < sensor_count; ++input)
         for (int output = first_output; output < first_hidden; ++output)
-            genome.edges.push_back({static_cast<NeuronIndex>(input), static_cast<NeuronIndex>(output),
-                                    static_cast<float>(rng.uniform())});
+            genome.edges.push_back(
+                {static_cast<NeuronIndex>(input), static_cast<NeuronIndex>(output), static_cast<float>(rng.uniform())});
     for (int output = 0; output < effector_count; ++output) genome.biases.push_back(static_cast<float>(rng.uniform()));
     return genome;
 }
 
-} // namespace lore
+}   // namespace lore

@@ -32,7 +32,7 @@ private:
     std::bitset<128 * 128> joined_;
 };
 
-} // namespace
+}   // namespace
 
 float polynomial_mutation(float gene, int eta, double u) {
     assert(std::has_single_bit(static_cast<unsigned>(eta + 1)));
@@ -133,4 +133,4 @@ void mutate(Genome& genome, MutationConfig const& config, NetworkLimits const& l
     if (rng.chance(config.delete_neuron_probability)) delete_neuron(genome, rng);
 }
 
-} // namespace lore
+}   // namespace lore

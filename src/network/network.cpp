@@ -26,7 +26,7 @@ std::vector<int> number_useful_neurons(Genome const& genome) {
     return numbers;
 }
 
-} // namespace
+}   // namespace
 
 Network compile(Genome const& genome) {
     assert(why_invalid(genome).empty());
@@ -43,8 +43,8 @@ Network compile(Genome const& genome) {
         if (edge.target >= first_hidden && target < 0) continue;
         int const source = edge.source < sensor_count ? -1 : numbers[edge.source - first_hidden];
         assert(edge.source < sensor_count || source >= 0);   // what feeds a useful neuron is useful
-        auto const to = static_cast<std::uint64_t>(
-            edge.target < first_hidden ? edge.target - first_output : effector_count + target);
+        auto const to = static_cast<std::uint64_t>(edge.target < first_hidden ? edge.target - first_output
+                                                                              : effector_count + target);
         auto const from = static_cast<std::uint64_t>(edge.source < sensor_count ? edge.source : sensor_count + source);
         entries.push_back(to << 40 | from << 32 | std::bit_cast<std::uint32_t>(decode_gene(edge.weight)));
     }
@@ -83,4 +83,4 @@ void tick(Network const& network, std::span<float const, sensor_count> inputs, N
     }
 }
 
-} // namespace lore
+}   // namespace lore

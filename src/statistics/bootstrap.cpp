@@ -56,4 +56,4 @@ Interval bootstrap_a12(std::span<double const> first, std::span<double const> se
     return {quantile(effects, (1 - config.level) / 2), quantile(effects, (1 + config.level) / 2)};
 }
 
-} // namespace lore
+}   // namespace lore

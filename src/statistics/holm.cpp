@@ -27,4 +27,4 @@ std::vector<double> holm_adjusted(std::span<double const> p_values) {
     return adjusted;
 }
 
-} // namespace lore
+}   // namespace lore

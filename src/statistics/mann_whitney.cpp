@@ -28,7 +28,10 @@ struct Ranking {
 };
 
 Ranking rank(std::span<double const> first, std::span<double const> second) {
-    struct Value { double value; bool of_first; };
+    struct Value {
+        double value;
+        bool of_first;
+    };
     std::vector<Value> pooled;
     for (double x : first) pooled.push_back({x, true});
     for (double x : second) pooled.push_back({x, false});
@@ -85,7 +88,7 @@ double normal_tail(double u, double n, double m, double tie_sum) {
     return boost::math::cdf(boost::math::complement(boost::math::normal_distribution<double>{}, z));
 }
 
-} // namespace
+}   // namespace
 
 MannWhitney mann_whitney(std::span<double const> first, std::span<double const> second) {
     require_numbers(first, "first");
@@ -110,4 +113,4 @@ double vargha_delaney_a12(std::span<double const> first, std::span<double const>
     return rank(first, second).u / (static_cast<double>(first.size()) * static_cast<double>(second.size()));
 }
 
-} // namespace lore
+}   // namespace lore

@@ -26,7 +26,7 @@ double quantile_of_sorted(std::vector<double> const& values, double fraction) {
     return values[below] + (position - static_cast<double>(below)) * (values[below + 1] - values[below]);
 }
 
-} // namespace
+}   // namespace
 
 double quantile(std::span<double const> sample, double fraction) {
     return quantile_of_sorted(sorted(sample), fraction);
@@ -54,11 +54,11 @@ double mean(std::span<double const> sample) {
 }
 
 double standard_deviation(std::span<double const> sample) {
-    double const centre = mean(sample);
+    double const center = mean(sample);
     if (sample.size() == 1) return 0;
     double squares = 0;
-    for (double x : sample) squares += (x - centre) * (x - centre);
+    for (double x : sample) squares += (x - center) * (x - center);
     return std::sqrt(squares / static_cast<double>(sample.size() - 1));
 }
 
-} // namespace lore
+}   // namespace lore

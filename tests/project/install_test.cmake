@@ -1,4 +1,4 @@
-# Installs the build into a scratch prefix, builds examples/newcomers against it and runs it: it must evolve what
+# Installs the build into a scratch prefix, builds docs/examples/newcomers against it and runs it: it must evolve what
 # lore-evolve does.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
@@ -12,14 +12,16 @@ function(run result_variable)
 endfunction()
 
 run(output ${CMAKE_COMMAND} --install ${BUILD} --prefix ${scratch}/prefix)
-run(output ${CMAKE_COMMAND} -S ${SOURCE}/examples/newcomers -B ${scratch}/build -DCMAKE_PREFIX_PATH=${scratch}/prefix
+run(output ${CMAKE_COMMAND} -S ${SOURCE}/docs/examples/newcomers -B ${scratch}/build
+  -DCMAKE_PREFIX_PATH=${scratch}/prefix
     -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(output ${CMAKE_COMMAND} --build ${scratch}/build)
 
-set(settings evolution.generations=3 evolution.population=20 evolution.founders=40 evolution.ties=older episode.steps=200)
-run(example ${scratch}/build/newcomers ${SOURCE}/jobs/source.toml 7 ${settings})
+set(settings evolution.generations=3 evolution.population=20 evolution.founders=40 evolution.ties=older
+  episode.steps=200)
+run(example ${scratch}/build/newcomers ${SOURCE}/jobs/tasks/source.toml 7 ${settings})
 list(TRANSFORM settings PREPEND "--set;" OUTPUT_VARIABLE options)
-run(program ${scratch}/prefix/bin/lore-evolve ${SOURCE}/jobs/source.toml --seed 7 --out ${scratch}/run ${options})
+run(program ${scratch}/prefix/bin/lore-evolve ${SOURCE}/jobs/tasks/source.toml --seed 7 --out ${scratch}/run ${options})
 
 foreach(output example program)
   string(REGEX MATCH "signature: [0-9a-f]+" ${output}_signature "${${output}}")

@@ -28,7 +28,8 @@ inline std::string file_text(std::string const& path) {
 
 /// Of mpirun: the ranks on this machine.
 inline std::vector<pid_t> children_of(pid_t parent) {
-    std::istringstream list{file_text("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children")};
+    std::istringstream list{
+        file_text("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children")};
     std::vector<pid_t> children;
     for (pid_t child = 0; list >> child;) children.push_back(child);
     return children;
@@ -75,8 +76,9 @@ public:
         keep(status);
         return false;
     }
-    /// The exit code, or 128 + the signal that ended it. Open MPI's launcher may wait for ever for a rank that was killed
-    /// before the launcher looked for it (docs/reliability.md): one that has had no living rank for 20 s is ended here.
+    /// The exit code, or 128 + the signal that ended it. Open MPI's launcher may wait for ever for a rank that was
+    /// killed before the launcher looked for it (docs/reliability.md): one that has had no living rank for 20 s is
+    /// ended here.
     int wait() {
         for (int alone = 0; running(); std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
             alone = is_launcher_ && !has_living_children(pid_) ? alone + 1 : 0;
@@ -109,7 +111,8 @@ private:
         std::vector<char*> arguments;
         for (std::string& word : words) {
             std::size_t const equals = word.find('=');
-            if (arguments.empty() && equals != std::string::npos && word.find('/') > equals) ::setenv(word.substr(0, equals).c_str(), word.c_str() + equals + 1, 1);
+            if (arguments.empty() && equals != std::string::npos && word.find('/') > equals)
+                ::setenv(word.substr(0, equals).c_str(), word.c_str() + equals + 1, 1);
             else arguments.push_back(word.data());
         }
         arguments.push_back(nullptr);
@@ -140,4 +143,4 @@ inline std::vector<std::string> on_ranks(int ranks) {
     return {"mpirun", "--quiet", "-n", std::to_string(ranks), "--oversubscribe", "--bind-to", "none"};
 }
 
-} // namespace lore
+}   // namespace lore

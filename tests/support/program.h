@@ -65,4 +65,4 @@ private:
     std::string program_;
 };
 
-} // namespace lore::test
+}   // namespace lore::test

@@ -52,7 +52,8 @@ inline EvolutionState write_sample_evolution(std::filesystem::path const& direct
     });
     all.finish();
     write_lineage(directory / run_file::lineage, end.population);
-    write_genome(directory / run_file::failed_genome, {{3, 1}, end.population.members[0].birth->genome, 1, "out of memory"});
+    write_genome(directory / run_file::failed_genome,
+                 {{3, 1}, end.population.members[0].birth->genome, 1, "out of memory"});
     return end;
 }
 
@@ -73,7 +74,8 @@ inline void write_sample_knowledge(std::filesystem::path const& directory) {
     provenance.individuals = 3;
     provenance.windows = 57;
     provenance.best_balls = 2;
-    write_knowledge_base(directory / sample_knowledge, KnowledgeBase{{static_cast<int>(window), 1.83f}, provenance, std::move(arrays)});
+    write_knowledge_base(directory / sample_knowledge,
+                         KnowledgeBase{{static_cast<int>(window), 1.83f}, provenance, std::move(arrays)});
 }
 
 inline void write_sample_tables(std::filesystem::path const& directory) {
@@ -116,7 +118,16 @@ inline void write_sample_documents(std::filesystem::path const& directory) {
     manifest.build.libraries = {{"zstd", "1.5.4"}};
     manifest.inputs = {{"configuration", "jobs/source.toml", 10, "0123456789abcdef"}};
     manifest.outputs = {{"output", "lineage.lore", 12, "0123456789abcdef"}};
-    manifest.sessions.push_back({"lore-evolve", "2025-01-01T00:00:00Z", "2025-01-01T00:00:09Z", 0, 12, 2, {"here", "there"}, "v4", 1.25, "signal 10"});
+    manifest.sessions.push_back({"lore-evolve",
+                                 "2025-01-01T00:00:00Z",
+                                 "2025-01-01T00:00:09Z",
+                                 0,
+                                 12,
+                                 2,
+                                 {"here", "there"},
+                                 "v4",
+                                 1.25,
+                                 "signal 10"});
     write_manifest(directory / run_file::manifest, manifest);
 }
 
@@ -129,4 +140,4 @@ inline EvolutionState write_sample_files(std::string const& directory) {
     return write_sample_evolution(directory);
 }
 
-} // namespace lore::test
+}   // namespace lore::test

@@ -41,4 +41,4 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
     write_manifest(file(run_file::manifest), manifest);
 }
 
-} // namespace lore::test
+}   // namespace lore::test

@@ -70,4 +70,4 @@ inline std::vector<TraceRow> read_trace(std::filesystem::path const& path) {
     return rows;
 }
 
-} // namespace lore::tests
+}   // namespace lore::tests

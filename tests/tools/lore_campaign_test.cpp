@@ -17,7 +17,7 @@ protected:
     void write(std::string const& file, std::string const& text) { std::ofstream{scratch.file(file)} << text; }
 };
 
-} // namespace
+}   // namespace
 
 TEST_F(LoreCampaignTest, compares_two_columns) {
     // Of ten ways to choose the two that rank lowest among five, one is this far to the left, and one to the right.
@@ -51,7 +51,7 @@ TEST_F(LoreCampaignTest, says_so_where_its_output_is_lost) {
 }
 
 TEST_F(LoreCampaignTest, tells_what_a_missing_step_waits_for) {
-    std::string const jobs = LORE_SOURCE_DIR "/jobs/";
+    std::string const jobs = LORE_SOURCE_DIR "/jobs/campaigns/";
     std::string const told = run("status " + jobs + "small.toml --dir c").output;
     EXPECT_THAT(told, HasSubstr("source/001               missing      not started\n"));
     EXPECT_THAT(told, HasSubstr("choose                   missing      waits for source\n"));
@@ -62,12 +62,13 @@ TEST_F(LoreCampaignTest, tells_what_a_missing_step_waits_for) {
 
 TEST_F(LoreCampaignTest, refuses_time_limits_that_are_none) {
     std::string const submit =
-        std::string{"submit "} + LORE_SOURCE_DIR "/jobs/small.toml --only-write --dir never --time ";
+        std::string{"submit "} + LORE_SOURCE_DIR "/jobs/campaigns/small.toml --only-write --dir never --time ";
     expect_refusal(submit + "abc", 2, "it is no time");
     expect_refusal(submit + "00:02:00", 2, "told to stop 120 s before it");
     expect_refusal(submit + "2", 2, "told to stop 120 s before it");
     for (char const* good : {"00:02:01", "3", "1-00", "1-02:03", "0-00:02:01", "UNLIMITED"})
-        expect_done(std::string{"submit "} + LORE_SOURCE_DIR "/jobs/small.toml --only-write -q --dir c --time " + good);
+        expect_done(std::string{"submit "} +
+                    LORE_SOURCE_DIR "/jobs/campaigns/small.toml --only-write -q --dir c --time " + good);
 }
 
 TEST_F(LoreCampaignTest, says_what_is_no_sample) {

@@ -30,7 +30,7 @@ protected:
     }
 };
 
-} // namespace
+}   // namespace
 
 TEST_F(LoreKb, builds_tells_and_verifies) {
     expect_done("build run --out kb.lorekb");

@@ -27,7 +27,7 @@ protected:
     }
 };
 
-} // namespace
+}   // namespace
 
 TEST_F(LoreReplay, repeats_an_individual_of_a_run) {
     test::write_small_run(scratch.file("run"));
@@ -42,7 +42,7 @@ TEST_F(LoreReplay, repeats_an_individual_of_a_run) {
     EXPECT_THAT(content("replay/trajectory.png"), HasSubstr("PNG"));
 }
 
-TEST_F(LoreReplay, colours_the_trajectory_by_one_knowledge_base_or_by_the_product_of_several) {
+TEST_F(LoreReplay, colors_the_trajectory_by_one_knowledge_base_or_by_the_product_of_several) {
     test::write_small_run(scratch.file("run"));
     ASSERT_EQ(test::run_program(LORE_KB " build " + scratch.file("run") + " -q --out " + scratch.file("kb.lorekb"),
                                 scratch.path())

@@ -25,15 +25,16 @@ protected:
     std::string const results = scratch.file("results.md");
 };
 
-} // namespace
+}   // namespace
 
 TEST_F(ReportScripts, set_each_median_beside_its_target_and_judge_it) {
     ASSERT_EQ(run("bench-report", from_sample()).exit_code, 0);
     std::string const text = file_text(results);
     EXPECT_THAT(text, HasSubstr("40 connections, AVX-512 | 15.5 ns | 14 .. 16 ns | <= 15 ns | <= 8 ns | **missed** |"));
     EXPECT_THAT(text, HasSubstr("| 11 ms | 10 .. 12 ms | <= 18 ms | <= 11 ms | aim reached |"));
-    EXPECT_THAT(text, HasSubstr("| 1.85 times |  | >= 1.8 times | >= 1.9 times | target reached |")); // more is better
-    EXPECT_THAT(text, HasSubstr("| fronts, 400 x 3 objectives | 22 us |  |  |  |  |")); // no target, no verdict
+    EXPECT_THAT(text,
+                HasSubstr("| 1.85 times |  | >= 1.8 times | >= 1.9 times | target reached |"));   // more is better
+    EXPECT_THAT(text, HasSubstr("| fronts, 400 x 3 objectives | 22 us |  |  |  |  |"));   // no target, no verdict
     EXPECT_THAT(text, HasSubstr("Commit `0123456789ab` (with changes that are not committed), g++ 12.2.0, Release"));
     EXPECT_THAT(text, HasSubstr("A note."));
 }

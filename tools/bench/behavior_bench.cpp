@@ -1,4 +1,4 @@
-// Behavioural distances: what one generation has to measure, that is, all pairs of 400 with at least one of 200
+// Behavioral distances: what one generation has to measure, that is, all pairs of 400 with at least one of 200
 // children.
 #include "evolved_state.h"
 
@@ -51,5 +51,5 @@ bool const registered = [] {
     return true;
 }();
 
-} // namespace
-} // namespace lore
+}   // namespace
+}   // namespace lore

@@ -15,7 +15,7 @@ namespace lore {
 namespace {
 
 /// As many genomes as one generation has children, each with at least `edges` connections: evolved ones that grew.
-/// Random additions change what the robots do, so figures of different sizes are not of the same behaviour.
+/// Random additions change what the robots do, so figures of different sizes are not of the same behavior.
 std::vector<Genome> grown(int edges, int hidden) {
     std::vector<Genome> genomes;
     for (Individual const& member : evolved_state().state.population.members) {
@@ -78,5 +78,5 @@ bool const registered = [] {
     return true;
 }();
 
-} // namespace
-} // namespace lore
+}   // namespace
+}   // namespace lore

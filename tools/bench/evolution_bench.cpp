@@ -58,7 +58,7 @@ void whole_generation(benchmark::State& state, EvolvedState const& (*population)
     SerialEvaluator evaluator{evolved.context};
     EvolutionState now = evolved.state;
     auto const one = [](GenerationReport const&) { return false; };
-    now = evolve(config, 1, evaluator, std::move(now), one); // the change of distance is measured apart
+    now = evolve(config, 1, evaluator, std::move(now), one);   // the change of distance is measured apart
     for (auto _ : state) now = evolve(config, 1, evaluator, std::move(now), one);
 }
 
@@ -76,5 +76,5 @@ bool const registered = [] {
     return true;
 }();
 
-} // namespace
-} // namespace lore
+}   // namespace
+}   // namespace lore

@@ -38,4 +38,4 @@ EvolvedState const& evolved_with_knowledge() {
     return evolved;
 }
 
-} // namespace lore
+}   // namespace lore

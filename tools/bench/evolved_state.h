@@ -4,7 +4,7 @@
 
 namespace lore {
 
-/// A population as a run has it after its first steps, so that benchmarks see behaviours that are as alike, and
+/// A population as a run has it after its first steps, so that benchmarks see behaviors that are as alike, and
 /// objectives as tied, as in earnest. Evolved once per program.
 struct EvolvedState {
     EvaluationContext context;
@@ -23,4 +23,4 @@ EvolvedState const& evolved_state();
 /// Target task, 50 generations shaped by the learned base (learned_base.h).
 EvolvedState const& evolved_with_knowledge();
 
-} // namespace lore
+}   // namespace lore

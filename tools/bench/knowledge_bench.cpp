@@ -19,18 +19,10 @@ namespace {
 
 using Maker = std::unique_ptr<FeatureIndex> (*)();
 
-std::unique_ptr<FeatureIndex> scan() {
-    return make_scan_index({});
-}
-std::unique_ptr<FeatureIndex> exact() {
-    return make_exact_index({});
-}
-std::unique_ptr<FeatureIndex> flann_32() {
-    return make_flann_index({}, 4, 32);
-}
-std::unique_ptr<FeatureIndex> flann_128() {
-    return make_flann_index({}, 4, 128);
-}
+std::unique_ptr<FeatureIndex> scan() { return make_scan_index({}); }
+std::unique_ptr<FeatureIndex> exact() { return make_exact_index({}); }
+std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index({}, 4, 32); }
+std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index({}, 4, 128); }
 
 /// Of the last joint pool of the target run: the parents, or the children.
 Lives lives_of_half(std::size_t half) {
@@ -76,7 +68,7 @@ void build(benchmark::State& state, Maker make, Isa isa) {
 }
 
 struct Asking {
-    std::size_t stride = 1; ///< every how manyth window is asked for: slow indices answer fewer
+    std::size_t stride = 1;   ///< every how manyth window is asked for: slow indices answer fewer
     bool warm = false;
     int teachers = usual_teachers;
 };
@@ -156,6 +148,6 @@ bool const registered = [] {
     return true;
 }();
 
-} // namespace
+}   // namespace
 
-} // namespace lore
+}   // namespace lore

@@ -16,10 +16,10 @@ struct School {
     int generations;
     std::size_t share;
 };
-// Seeds that deliver early. Run 4 converges on one behaviour (few features), run 5 does not.
+// Seeds that deliver early. Run 4 converges on one behavior (few features), run 5 does not.
 constexpr School schools[]{{4, 150, 5}, {7, 100, 3}, {5, 100, 2}};
 
-} // namespace
+}   // namespace
 
 Lives::Lives(Arena const& arena, EpisodeConfig const& episode, std::vector<Birth const*> const& individuals) {
     for (Birth const* individual : individuals) {
@@ -72,4 +72,4 @@ KnowledgeBase const& learned_base() {
     return base;
 }
 
-} // namespace lore
+}   // namespace lore

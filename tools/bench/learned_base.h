@@ -27,4 +27,4 @@ KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_in
 /// From the usual ones; built once per program.
 KnowledgeBase const& learned_base();
 
-} // namespace lore
+}   // namespace lore

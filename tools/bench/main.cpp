@@ -28,10 +28,8 @@ std::string_view take_option(std::string_view name, int& argc, char** argv) {
     int kept = 0;
     for (int i = 0; i < argc; ++i) {
         std::string_view const argument{argv[i]};
-        if (argument.starts_with(name))
-            value = argument.substr(name.size());
-        else
-            argv[kept++] = argv[i];
+        if (argument.starts_with(name)) value = argument.substr(name.size());
+        else argv[kept++] = argv[i];
     }
     argc = kept;
     return value;
@@ -46,7 +44,7 @@ int count_in(std::string_view text) {
     return count;
 }
 
-} // namespace
+}   // namespace
 
 constexpr char help_text[] = R"(Benchmarks of every hot path.
 

@@ -47,5 +47,5 @@ void evaluations_in(benchmark::State& state) {
 }
 BENCHMARK(evaluations_in)->Name("message/evaluation/unpack")->Unit(benchmark::kMicrosecond);
 
-} // namespace
-} // namespace lore
+}   // namespace
+}   // namespace lore

@@ -21,9 +21,9 @@ namespace lore {
 
 /// Where a file stands; what a checkpoint keeps of it.
 struct AllIndividualsMark {
-    std::uint64_t bytes = 0;        ///< length of the file
-    std::uint64_t chain = 0;        ///< running checksum at that place
-    std::uint32_t generations = 0;  ///< gathered, but not in a frame yet
+    std::uint64_t bytes = 0;         ///< length of the file
+    std::uint64_t chain = 0;         ///< running checksum at that place
+    std::uint32_t generations = 0;   ///< gathered, but not in a frame yet
     std::vector<std::byte> gathered;
 };
 
@@ -55,12 +55,16 @@ struct ArchivedIndividual {
     int balls = 0;
 };
 
-/// Calls back for every individual in order of birth, up to and including generation `through`; memory is bounded by two
-/// populations and a frame. Throws Error: missing, damaged, or ending before that generation.
+/// Calls back for every individual in order of birth, up to and including generation `through`; memory is bounded by
+/// two populations and a frame. Throws Error: missing, damaged, or ending before that generation.
 void for_each_individual(std::string const& path, int through, std::function<void(ArchivedIndividual const&)> const&);
 
 /// Generations and individuals of a file, all frames checked. Throws Error.
-struct AllIndividualsSummary { int generations = 0; std::uint64_t individuals = 0; std::uint64_t bytes = 0; };
+struct AllIndividualsSummary {
+    int generations = 0;
+    std::uint64_t individuals = 0;
+    std::uint64_t bytes = 0;
+};
 AllIndividualsSummary check_all_individuals(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

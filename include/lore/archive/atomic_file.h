@@ -16,8 +16,8 @@ void write_file_atomically(std::string const& path, std::string_view content);
 using BytePieces = std::span<std::span<std::byte const> const>;
 void write_file_atomically(std::string const& path, BytePieces content);
 
-/// Likewise, but what `path` held stays as `former`, in place of what that held. Nothing is touched before the new content
-/// is on the disk whole; killed at the worst moment, a process leaves `former` alone, for lack of a `path`.
+/// Likewise, but what `path` held stays as `former`, in place of what that held. Nothing is touched before the new
+/// content is on the disk whole; killed at the worst moment, a process leaves `former` alone, for lack of a `path`.
 void replace_file(std::string const& path, std::string const& former, std::span<std::byte const> content);
 
 /// A whole file. Throws Error (missing, unreadable, a directory).
@@ -26,4 +26,4 @@ std::vector<std::byte> read_file(std::string const& path);
 /// Temporary files that a killed process left in `directory` are removed; no other process may be writing there.
 void remove_leftovers(std::string const& directory);
 
-} // namespace lore
+}   // namespace lore

@@ -16,7 +16,7 @@ namespace lore {
 struct Checkpoint {
     EvolutionState state;
     std::uint64_t seed = 0;
-    std::uint64_t config_digest = 0;      ///< of the settings that results depend on; must fit those resumed with
+    std::uint64_t config_digest = 0;   ///< of the settings that results depend on; must fit those resumed with
     std::uint64_t evaluations = 0, steps = 0;
     double seconds = 0;                   ///< wall time of all sessions
     std::uint64_t progress_bytes = 0;     ///< length of progress.csv
@@ -27,16 +27,16 @@ Bytes pack_checkpoint(Checkpoint const&);
 /// `name` is what errors call it.
 Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_view name);
 
-/// The former checkpoint stays as `older`; at every moment one of the two is whole, and they are never the same file. If
-/// it cannot be written (full disk), both stay as they are.
+/// The former checkpoint stays as `older`; at every moment one of the two is whole, and they are never the same file.
+/// If it cannot be written (full disk), both stay as they are.
 void write_checkpoint(std::string const& path, std::string const& older, Checkpoint const&);
 
 struct FoundCheckpoint {
     Checkpoint checkpoint;
     std::string warning;   ///< why the newer one was not taken, or ""
 };
-/// The newer of the two that is whole, which is then the one at `path`: a damaged newer one is replaced by the older, so
-/// that the next checkpoint does not push the only whole one out. Throws the newer one's Error if neither is.
+/// The newer of the two that is whole, which is then the one at `path`: a damaged newer one is replaced by the older,
+/// so that the next checkpoint does not push the only whole one out. Throws the newer one's Error if neither is.
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older);
 
-} // namespace lore
+}   // namespace lore

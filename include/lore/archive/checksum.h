@@ -16,4 +16,4 @@ std::uint64_t checksum_of_file(std::string const& path);
 /// 16 lower-case hexadecimal digits.
 std::string checksum_text(std::uint64_t);
 
-} // namespace lore
+}   // namespace lore

@@ -15,7 +15,13 @@ namespace lore {
 using Bytes = std::vector<std::byte>;
 
 /// Kinds of files Lore writes in containers; the number is in the file.
-enum class FileKind : std::uint32_t { lineage = 1, checkpoint = 2, knowledge_base = 3, all_individuals = 4, genome = 5 };
+enum class FileKind : std::uint32_t {
+    lineage = 1,
+    checkpoint = 2,
+    knowledge_base = 3,
+    all_individuals = 4,
+    genome = 5
+};
 std::string_view name(FileKind);
 
 /// The format that this build writes, and the newest that it reads. Every older one stays readable.
@@ -23,7 +29,8 @@ inline constexpr std::uint32_t container_version = 1;
 /// A payload starts at this offset of its file, so that arrays of a mapped payload are aligned like their file.
 inline constexpr std::size_t container_header_size = 64;
 
-/// How the payload is stored: compressed by zstd with care, or fast (what is soon replaced); plain if it is to be mapped.
+/// How the payload is stored: compressed by zstd with care, or fast (what is soon replaced); plain if it is to be
+/// mapped.
 enum class Packing : std::uint8_t { compressed, fast, plain };
 
 /// Every binary file of Lore: magic, format version, kind, byte order, payload length, flags and checksum (XXH3-64) in
@@ -32,7 +39,8 @@ enum class Packing : std::uint8_t { compressed, fast, plain };
 ///
 /// Writing is atomic: temporary file in the same directory, fsync, rename, fsync of the directory. On any failure the
 /// former file is still there, whole.
-void write_container(std::string const& path, FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);
+void write_container(std::string const& path, FileKind, std::span<std::byte const> payload,
+                     Packing = Packing::compressed);
 /// A plain one, to be mapped; in pieces, because a knowledge base of everybody would not fit into memory twice.
 void write_plain_container(std::string const& path, FileKind, BytePieces payload);
 /// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
@@ -52,4 +60,4 @@ MappedPayload map_container(std::string const& path, FileKind expected);
 /// What the header of a file says of its kind; for `lore-kb verify`. Throws Error if it is none of Lore's.
 FileKind kind_of_file(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

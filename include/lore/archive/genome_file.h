@@ -10,11 +10,11 @@ namespace lore {
 struct FailedIndividual {
     IndividualId id;
     Genome genome;
-    int rank = 0;         ///< on which it failed
+    int rank = 0;   ///< on which it failed
     std::string reason;
 };
 
 void write_genome(std::string const& path, FailedIndividual const&);
 FailedIndividual read_genome(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

@@ -20,4 +20,4 @@ std::string provenance_json(Provenance const&);
 /// Throws Error if the shape is another, or a binary channel is neither 0 nor 1.
 Trace read_windows(std::string const& path, int window_length);
 
-} // namespace lore
+}   // namespace lore

@@ -6,8 +6,8 @@
 
 namespace lore {
 
-/// A KB file is a plain container whose payload holds the arrays as they are used, each aligned to 64 bytes of the file,
-/// so that the ranks of one node map it and share it through the page cache. docs/formats.md has the layout.
+/// A KB file is a plain container whose payload holds the arrays as they are used, each aligned to 64 bytes of the
+/// file, so that the ranks of one node map it and share it through the page cache. docs/formats.md has the layout.
 
 /// Atomic; throws Error (full disk, no permission), the former file survives.
 void write_knowledge_base(std::string const& path, KnowledgeBase const&);
@@ -15,4 +15,4 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const&);
 /// Throws Error. The knowledge base keeps the mapping alive.
 KnowledgeBase read_knowledge_base(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

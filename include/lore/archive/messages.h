@@ -37,4 +37,4 @@ RowRequest unpack_rows(std::span<std::byte const>);
 Bytes pack_distances(int first, int last, DistanceMatrix const&);
 void unpack_distances(std::span<std::byte const>, int first, int last, DistanceMatrix&);
 
-} // namespace lore
+}   // namespace lore

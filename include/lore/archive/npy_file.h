@@ -24,4 +24,4 @@ void write_npy(std::string const& path, std::span<float const> values, std::span
 void write_npy(std::string const& path, std::span<double const> values, std::span<std::size_t const> shape);
 void write_npy(std::string const& path, std::span<std::uint32_t const> values, std::span<std::size_t const> shape);
 
-} // namespace lore
+}   // namespace lore

@@ -18,4 +18,4 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const&);
 /// The columns a0, a1, a2 of such a file, each in [0, 1].
 std::vector<Effectors> read_actions_csv(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

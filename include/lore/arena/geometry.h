@@ -38,4 +38,4 @@ float cast_ray(Geometry const&, float x, float y, float dx, float dy, bool door_
 /// True if the robot's disc at (x, y) touches a wall or the shut door.
 bool disc_touches(Geometry const&, float x, float y, bool door_open);
 
-} // namespace lore
+}   // namespace lore

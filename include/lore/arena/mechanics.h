@@ -12,16 +12,20 @@ namespace lore::mechanics {
 
 /// A direction or displacement [u].
 template <class F>
-struct Vector { F x, y; };
+struct Vector {
+    F x, y;
+};
 
 inline constexpr float sqrt_half = 0.707106781f;
-inline constexpr float two_pi    = 6.28318530717958f;
+inline constexpr float two_pi = 6.28318530717958f;
 
 // ---- motion -------------------------------------------------------------------------------------------------------
 
 /// What the wheels do in one step: the angle turned [rad] and the length of the way [u].
 template <class F>
-struct Drive { F turn, way; };
+struct Drive {
+    F turn, way;
+};
 
 /// Wheel outputs in [0, 1]; the displacement of a wheel is max_speed (2 o - 1).
 template <class F>
@@ -77,12 +81,14 @@ LORE_INLINE auto segment_meets(Wall const& wall, F const& px, F const& py, F con
     F const rx = (px + qx) * 0.5f - (wall.x0 + wall.x1) * 0.5f;
     F const ry = (py + qy) * 0.5f - (wall.y0 + wall.y1) * 0.5f;
     F const ax = lanes::abs(hx), ay = lanes::abs(hy);
-    return (lanes::abs(rx) <= ax + half_width) & (lanes::abs(ry) <= ay + half_height)
-         & (lanes::abs(hx * ry - hy * rx) <= ay * half_width + ax * half_height);
+    return (lanes::abs(rx) <= ax + half_width) & (lanes::abs(ry) <= ay + half_height) &
+           (lanes::abs(hx * ry - hy * rx) <= ay * half_width + ax * half_height);
 }
 
 template <class M>
-struct Bumpers { M right, left; };
+struct Bumpers {
+    M right, left;
+};
 
 /// Which bumpers a touched wall presses: some point of it within the radius has a bearing strictly between 0 and pi/2
 /// (right, the +45 degree side) or -pi/2 and 0 (left), relative to `heading`.
@@ -118,7 +124,9 @@ LORE_INLINE auto bumpers(Wall const& wall, F const& x, F const& y, math::SinCos<
 
 /// The directions of the sensors at 0, +45 (right) and -45 degrees (left), from one sine and cosine.
 template <class F>
-struct Directions { Vector<F> ahead, right, left; };
+struct Directions {
+    Vector<F> ahead, right, left;
+};
 
 template <class F>
 LORE_INLINE Directions<F> directions(math::SinCos<F> const& heading) {
@@ -130,10 +138,14 @@ LORE_INLINE Directions<F> directions(math::SinCos<F> const& heading) {
 /// A ray in the frame of its origin, with 1 / direction (infinite where the direction is 0). The reciprocals of `left`
 /// are those of `right` exchanged and negated, to the bit.
 template <class F>
-struct Ray { Vector<F> direction, reciprocal; };
+struct Ray {
+    Vector<F> direction, reciprocal;
+};
 
 template <class F>
-LORE_INLINE Ray<F> ray(Vector<F> const& d) { return {d, {1.0f / d.x, 1.0f / d.y}}; }
+LORE_INLINE Ray<F> ray(Vector<F> const& d) {
+    return {d, {1.0f / d.x, 1.0f / d.y}};
+}
 
 /// The smaller of `nearest` and the distance at which the ray hits one of the two faces.
 ///
@@ -170,4 +182,4 @@ LORE_INLINE auto in_view(F const& vx, F const& vy, Vector<F> const& direction, f
     return (dot > 0.0f) & (dot * dot > (vx * vx + vy * vy) * cos_squared_half_view);
 }
 
-} // namespace lore::mechanics
+}   // namespace lore::mechanics

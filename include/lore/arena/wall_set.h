@@ -10,7 +10,9 @@ namespace lore {
 using WallSet = std::uint16_t;
 
 inline constexpr int shared_wall_bit = 15;
-constexpr WallSet wall_bit(int wall) { return static_cast<WallSet>(1u << (wall < shared_wall_bit ? wall : shared_wall_bit)); }
+constexpr WallSet wall_bit(int wall) {
+    return static_cast<WallSet>(1u << (wall < shared_wall_bit ? wall : shared_wall_bit));
+}
 
 /// Calls visit(i) for every wall i < wall_count of the set, in increasing order.
 template <class Visit>
@@ -24,4 +26,4 @@ LORE_INLINE void visit_walls(WallSet set, int wall_count, Visit&& visit) {
     }
 }
 
-} // namespace lore
+}   // namespace lore

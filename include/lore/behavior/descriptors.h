@@ -11,17 +11,17 @@
 
 namespace lore {
 
-inline constexpr int steps_per_tile_sample = 50;   ///< the trajectory descriptor looks at every 50th step [steps]
-inline constexpr int entropy_bins = 10;            ///< histogram bins of a continuous channel
+inline constexpr int steps_per_tile_sample = 50;      ///< the trajectory descriptor looks at every 50th step [steps]
+inline constexpr int entropy_bins = 10;               ///< histogram bins of a continuous channel
 inline constexpr int bits_per_step = channel_count;   ///< one bit a channel in the hamming descriptor
 
-/// What the four behavioural distances compare (paper, "Dynamic behavioral diversity"); taken from the logged steps:
+/// What the four behavioral distances compare (paper, "Dynamic behavioral diversity"); taken from the logged steps:
 /// pose and sensors before the move, effectors of the same step.
 struct Descriptors {
-    std::vector<Point> balls;                       ///< adhoc: where each ball was last released
-    std::vector<std::uint16_t> bits;                ///< hamming: Trace::bits, one word a step
-    std::vector<Tile> path;                         ///< trajectory: the tile of every 50th step, from step 0
-    std::array<double, channel_count> entropies{};  ///< entropy: per channel, in [0, 1]
+    std::vector<Point> balls;                        ///< adhoc: where each ball was last released
+    std::vector<std::uint16_t> bits;                 ///< hamming: Trace::bits, one word a step
+    std::vector<Tile> path;                          ///< trajectory: the tile of every 50th step, from step 0
+    std::array<double, channel_count> entropies{};   ///< entropy: per channel, in [0, 1]
     friend bool operator==(Descriptors const&, Descriptors const&) = default;
 };
 
@@ -43,4 +43,4 @@ struct ChannelHistograms {
 /// Entropies in base (number of bins), channel order, from counts that sum to `steps`; 0 for an evaluation of no steps.
 std::array<double, channel_count> entropies(ChannelHistograms const&, int steps);
 
-} // namespace lore
+}   // namespace lore

@@ -42,4 +42,4 @@ private:
 /// A pure function of the row range, so that ranks can share the rows. Chooses its instruction set at run time.
 void measure_rows(DistanceKind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 
-} // namespace lore
+}   // namespace lore

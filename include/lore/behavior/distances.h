@@ -12,7 +12,7 @@ inline constexpr int distance_kinds = 4;
 std::string_view name(DistanceKind);
 DistanceKind distance_kind(std::string_view name);   ///< throws UsageError
 
-/// Behavioural distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These
+/// Behavioral distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These
 /// are the definitions; measure_rows (distance_matrix.h) is the fast twin.
 
 /// Euclidean, over the coordinates of all balls; squares are summed ball by ball, x first. Precondition: equally many
@@ -21,11 +21,11 @@ double adhoc_distance(Descriptors const&, Descriptors const&);
 /// Fraction of the bits (bits_per_step a step) that differ; a step that only one of the two lived differs in all.
 double hamming_distance(Descriptors const&, Descriptors const&);
 /// Edit distance between tile sequences: insertion = deletion = 1, substitution (|dx| + |dy|) / 12, transposition of
-/// neighbours at the substitution cost of the pair. Computed in whole twelfths, so that sums are exact.
+/// neighbors at the substitution cost of the pair. Computed in whole twelfths, so that sums are exact.
 double trajectory_distance(Descriptors const&, Descriptors const&);
 /// Euclidean, over the entropies of all channels, summed in their order.
 double entropy_distance(Descriptors const&, Descriptors const&);
 
 double distance(DistanceKind, Descriptors const&, Descriptors const&);
 
-} // namespace lore
+}   // namespace lore

@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// Dynamic behavioural diversity (paper, same section): the distance changes every `period` generations.
+/// Dynamic behavioral diversity (paper, same section): the distance changes every `period` generations.
 struct DiversityConfig {
     int period = 50;   ///< p_g [generations]
     std::vector<DistanceKind> distances{DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory,
@@ -17,4 +17,4 @@ struct DiversityConfig {
 /// The distance that serves a generation: draw number floor(generation / period), uniform, repeats allowed.
 DistanceKind distance_at(std::uint64_t seed, int generation, DiversityConfig const&);
 
-} // namespace lore
+}   // namespace lore

@@ -12,4 +12,4 @@ struct Tile {
     friend bool operator==(Tile const&, Tile const&) = default;
 };
 
-} // namespace lore
+}   // namespace lore

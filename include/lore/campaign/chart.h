@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// Figure 3: mean best-of-run balls by generation, a line a treatment with its confidence band, labelled at its end.
+/// Figure 3: mean best-of-run balls by generation, a line a treatment with its confidence band, labeled at its end.
 /// An SVG document. Treatments without runs are left out.
 std::string draw_curves(CampaignPlan const&, Results const&);
 
@@ -24,7 +24,7 @@ std::string knowledge_label(CampaignPlan const&, std::string_view names);
 /// The document with `prefix` before every id and every reference to one, so that several can live in one page.
 std::string with_own_ids(std::string svg, std::string_view prefix);
 
-/// Colour of the i-th target treatment: Okabe and Ito's palette (2008), told apart by colour-blind readers.
+/// Color of the i-th target treatment: Okabe and Ito's palette (2008), told apart by color-blind readers.
 std::string_view treatment_color(std::size_t i);
 
-} // namespace lore
+}   // namespace lore

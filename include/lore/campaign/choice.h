@@ -47,4 +47,4 @@ Choice choose_runs(CampaignPlan const&, std::vector<SourceRun> const& finished, 
 void write_choice(std::string const& path, Choice const&);
 Choice read_choice(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

@@ -12,11 +12,11 @@ namespace lore {
 struct Comparison {
     std::string a, b;
     int n_a = 0, n_b = 0;
-    double u = 0;       ///< Mann-Whitney, of `a`
-    double p = 1;       ///< two-sided
-    double p_holm = 1;  ///< corrected over all pairs of this campaign's targets
-    double a12 = 0.5;   ///< probability that a run of `a` beats one of `b`
-    Interval a12_band;  ///< its 95 % bootstrap interval; not in pvalues.csv
+    double u = 0;        ///< Mann-Whitney, of `a`
+    double p = 1;        ///< two-sided
+    double p_holm = 1;   ///< corrected over all pairs of this campaign's targets
+    double a12 = 0.5;    ///< probability that a run of `a` beats one of `b`
+    Interval a12_band;   ///< its 95 % bootstrap interval; not in pvalues.csv
     bool exact = false;
 };
 
@@ -32,4 +32,4 @@ std::string_view significance_mark(double p);
 /// A p-value for people: "0.043", "3.1e-05".
 std::string p_text(double p);
 
-} // namespace lore
+}   // namespace lore

@@ -32,21 +32,21 @@ struct KnowledgePlan {
     std::string name;
     std::string label;
     KnowledgeKind kind = KnowledgeKind::lineage;
-    double balls = 0;                     ///< lineage: the level wished of the source run's best-of-run [balls]
-    int run = 0;                          ///< lineage: this source run, whatever its balls; 0: choose by `balls`
-    std::string base;                     ///< all but lineage: the knowledge base it starts from
-    std::uint64_t seed = 1;               ///< random: of the draw
-    std::optional<int> window_length;     ///< of its windows [steps]; without: the source runs'
+    double balls = 0;                        ///< lineage: the level wished of the source run's best-of-run [balls]
+    int run = 0;                             ///< lineage: this source run, whatever its balls; 0: choose by `balls`
+    std::string base;                        ///< all but lineage: the knowledge base it starts from
+    std::uint64_t seed = 1;                  ///< random: of the draw
+    std::optional<int> window_length;        ///< of its windows [steps]; without: the source runs'
     std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
-    std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
-    std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
+    std::vector<std::string> consensus;      ///< reduced: the knowledge bases that must know a feature too
+    std::vector<std::string> options;        ///< further arguments of lore-kb build or reduce
 };
 
 /// Which knowledge bases the pictures of trajectories show (paper, figures 5 and 6).
 struct FigurePlan {
-    std::string trajectory;                ///< the knowledge base whose source run's best is shown; empty: no pictures
-    std::vector<std::string> figure5;      ///< one panel each
-    std::vector<std::string> figure6;      ///< the product of all of these
+    std::string trajectory;             ///< the knowledge base whose source run's best is shown; empty: no pictures
+    std::vector<std::string> figure5;   ///< one panel each
+    std::vector<std::string> figure6;   ///< the product of all of these
 };
 
 /// How the campaign asks a batch system for its share.
@@ -60,8 +60,8 @@ struct ClusterPlan {
 /// A campaign: runs on a source task, knowledge bases from some of them, runs on the target task with and without.
 /// Data, so that another campaign needs only another file.
 struct CampaignPlan {
-    std::string path;                        ///< of its file
-    std::string directory;                   ///< in which the file lies; relative paths start there
+    std::string path;        ///< of its file
+    std::string directory;   ///< in which the file lies; relative paths start there
     std::string title;
     Treatment source;
     std::vector<KnowledgePlan> knowledge;    ///< each after those it is made from
@@ -70,15 +70,15 @@ struct CampaignPlan {
     FigurePlan figures;
     ClusterPlan cluster;
 
-    Treatment const& treatment(std::string_view name) const;           ///< precondition: there is one
-    KnowledgePlan const& knowledge_base(std::string_view name) const;  ///< precondition: there is one
-    std::string config_path(Treatment const&) const;                   ///< usable from the working directory
+    Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
+    KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
+    std::string config_path(Treatment const&) const;                    ///< usable from the working directory
 };
 
-/// Reads jobs/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
+/// Reads jobs/campaigns/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
 /// A treatment reads windows of the length and with the threshold of its knowledge base, without having to say so.
 /// Throws UsageError: syntax, unknown key, a name used twice or not defined, a value out of range, a treatment that
 /// sets other windows than its base has.
 CampaignPlan read_campaign(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

@@ -24,4 +24,4 @@ inline void write_report(CampaignPlan const& plan, CampaignDirectory const& dire
 std::string report_page(CampaignPlan const&, Results const&, std::vector<Comparison> const&,
                         std::map<std::string, std::string> const& figures);
 
-} // namespace lore
+}   // namespace lore

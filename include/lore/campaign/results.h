@@ -13,11 +13,11 @@ struct RunRow {
     std::string treatment;
     int run = 0;
     std::uint64_t seed = 0;
-    int balls = 0;                 ///< of its best-of-run
+    int balls = 0;   ///< of its best-of-run
     int generations = 0;
     std::uint64_t evaluations = 0;
     std::string signature;
-    std::string version;           ///< of Lore, with its commit
+    std::string version;   ///< of Lore, with its commit
 };
 
 /// The mean best-of-run of a treatment's finished runs at one generation: a row of curves.csv.
@@ -25,36 +25,36 @@ struct CurveRow {
     std::string treatment;
     int generation = 0;
     int runs = 0;
-    double mean = 0;               ///< [balls]
-    double low = 0, high = 0;      ///< 95 % percentile bootstrap band of the mean
+    double mean = 0;            ///< [balls]
+    double low = 0, high = 0;   ///< 95 % percentile bootstrap band of the mean
 };
 
 /// What a treatment's populations are like at one generation, means over its finished runs: a row of population.csv.
 struct PopulationRow {
     std::string treatment;
-    int generation = 0;            ///< 0, 1, 2, 5, 10, 20, 50 and so on, and the last
+    int generation = 0;   ///< 0, 1, 2, 5, 10, 20, 50 and so on, and the last
     int runs = 0;
-    double mean_balls = 0;         ///< of the survivors
-    double fronts = 0;             ///< of the joint ranking
-    double tied = 0;               ///< survivors that share all objectives with another
-    double best_shaping = 0;       ///< [balls]; -1 without a knowledge base
-    double shaping_at_max = 0;     ///< share of the survivors that have it
+    double mean_balls = 0;                ///< of the survivors
+    double fronts = 0;                    ///< of the joint ranking
+    double tied = 0;                      ///< survivors that share all objectives with another
+    double best_shaping = 0;              ///< [balls]; -1 without a knowledge base
+    double shaping_at_max = 0;            ///< share of the survivors that have it
     double connections = 0, hidden = 0;   ///< of the survivors' networks
 };
 
 /// A knowledge base: a row of kbs.csv.
 struct KnowledgeRow {
     std::string knowledge;
-    std::string kind;              ///< "lineage", "all", "random", "reduced"
+    std::string kind;   ///< "lineage", "all", "random", "reduced"
     int source_run = 0;
-    std::uint64_t seed = 0;        ///< of that run
-    int balls = 0;                 ///< of its best-of-run
-    std::uint64_t individuals = 0; ///< whose windows were read: the lineage's length
+    std::uint64_t seed = 0;          ///< of that run
+    int balls = 0;                   ///< of its best-of-run
+    std::uint64_t individuals = 0;   ///< whose windows were read: the lineage's length
     std::uint64_t windows = 0;
     int features = 0;
     double least_value = 0, greatest_value = 0;
-    int at_greatest = 0;           ///< features of that value
-    int shown_once = 0;            ///< features that one individual alone has shown
+    int at_greatest = 0;   ///< features of that value
+    int shown_once = 0;    ///< features that one individual alone has shown
 };
 
 /// Where the robot is and what has happened at the beginning of a step: a row of replay.csv.
@@ -67,15 +67,15 @@ struct ReplayStep {
 
 /// The best-of-run of one run, step by step.
 struct Replay {
-    std::string step;              ///< the campaign's name of the run, "source/007"
+    std::string step;   ///< the campaign's name of the run, "source/007"
     std::vector<ReplayStep> steps;
 };
 
 /// What a knowledge base, or the product of several, says about the windows of the shown trajectory: values.csv.
 struct PanelValues {
-    std::string figure;            ///< "figure5" or "figure6"
-    std::string knowledge;         ///< names joined by '*'
-    std::vector<double> values;    ///< per window; -1 where a single base, 0 where a product does not find it
+    std::string figure;           ///< "figure5" or "figure6"
+    std::string knowledge;        ///< names joined by '*'
+    std::vector<double> values;   ///< per window; -1 where a single base, 0 where a product does not find it
 };
 
 /// All that the report shows. It is made from these rows alone, so that it can be made again from the CSV files long
@@ -100,4 +100,4 @@ void write_results(CampaignDirectory const&, Results const&);
 /// Needs final.csv and curves.csv; what the others would tell is left out where they are missing. Throws Error.
 Results read_results(CampaignDirectory const&);
 
-} // namespace lore
+}   // namespace lore

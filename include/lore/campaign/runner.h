@@ -22,4 +22,4 @@ struct RunnerOptions {
 /// stderr by then, with the last lines of its log.
 ExitCode run_campaign(CampaignPlan const&, CampaignDirectory const&, RunnerOptions const&);
 
-} // namespace lore
+}   // namespace lore

@@ -9,12 +9,12 @@ namespace lore {
 
 /// One sbatch script: a group of steps, as a job or as an array of tasks.
 struct BatchJob {
-    std::string group;                 ///< of steps; "report" for the last
-    std::string script;                ///< path
+    std::string group;    ///< of steps; "report" for the last
+    std::string script;   ///< path
     std::string text;
-    std::vector<int> tasks;            ///< runs of an array; empty: a single job
-    std::vector<std::string> after;    ///< groups of this list whose jobs must have ended well
-    std::vector<std::string> after_any; ///< groups of this list whose jobs must have ended
+    std::vector<int> tasks;               ///< runs of an array; empty: a single job
+    std::vector<std::string> after;       ///< groups of this list whose jobs must have ended well
+    std::vector<std::string> after_any;   ///< groups of this list whose jobs must have ended
 };
 
 /// Scripts for all that is not done yet, in the order of submission, the report last. Paths in them are absolute.
@@ -29,4 +29,4 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const&, CampaignDirectory const&, 
 std::vector<std::string> submit_campaign(CampaignPlan const&, CampaignDirectory const&, Launcher const&,
                                          std::string const& program, bool only_write);
 
-} // namespace lore
+}   // namespace lore

@@ -13,11 +13,11 @@ std::string_view name(StepStatus);
 /// How far a step has come, read from disk alone: nothing else is kept, so nothing can get out of step.
 struct StepState {
     StepStatus status = StepStatus::missing;
-    std::string reason;       ///< for people: "at generation 1200 of 4000", "exit code 1: ..."
-    int generation = 0;       ///< of a run, as progress.csv says
-    int generations = 0;      ///< that it is to reach
+    std::string reason;    ///< for people: "at generation 1200 of 4000", "exit code 1: ..."
+    int generation = 0;    ///< of a run, as progress.csv says
+    int generations = 0;   ///< that it is to reach
     int best_balls = 0;
-    double seconds = 0;       ///< of wall time spent on it
+    double seconds = 0;   ///< of wall time spent on it
 };
 
 /// A run is done when its manifest says so, and failed if it was made with other settings than planned. A knowledge
@@ -59,7 +59,11 @@ private:
 };
 
 /// The last complete line of a run's progress.csv; all 0 if there is none.
-struct RunProgress { int generation = 0; int best_balls = 0; double seconds = 0; };
+struct RunProgress {
+    int generation = 0;
+    int best_balls = 0;
+    double seconds = 0;
+};
 RunProgress last_progress(std::string const& run_directory);
 
-} // namespace lore
+}   // namespace lore

@@ -9,10 +9,10 @@
 namespace lore {
 
 enum class StepKind : std::uint8_t {
-    evolve,   ///< one run of lore-evolve
-    choose,   ///< decides which source runs the knowledge bases come from
-    archive,  ///< a source run once more, keeping everybody
-    build     ///< one knowledge base
+    evolve,    ///< one run of lore-evolve
+    choose,    ///< decides which source runs the knowledge bases come from
+    archive,   ///< a source run once more, keeping everybody
+    build      ///< one knowledge base
 };
 
 /// One piece of work whose outcome is on disk. Names are unique: "source/007", "choose", "archive/kb1_all",
@@ -20,10 +20,10 @@ enum class StepKind : std::uint8_t {
 struct Step {
     std::string name;
     StepKind kind = StepKind::evolve;
-    std::string group;               ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
-    std::string subject;             ///< of the treatment or the knowledge base
-    int run = 0;                     ///< evolve: 1, 2, ...
-    std::vector<std::string> after;  ///< groups that must be finished
+    std::string group;                ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
+    std::string subject;              ///< of the treatment or the knowledge base
+    int run = 0;                      ///< evolve: 1, 2, ...
+    std::vector<std::string> after;   ///< groups that must be finished
 };
 
 /// All of a campaign, in the order in which it is worked through; every step after those that it waits for.
@@ -68,4 +68,4 @@ std::vector<std::string> command_of(CampaignPlan const&, CampaignDirectory const
 /// As a shell takes it.
 std::string shell_text(std::vector<std::string> const& command);
 
-} // namespace lore
+}   // namespace lore

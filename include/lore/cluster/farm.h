@@ -18,7 +18,7 @@ using StreamEvaluation = std::function<void(EvaluationFeed&)>;
 class EvaluationFailure : public Error {
 public:
     EvaluationFailure(int index, int rank, Genome genome, std::string reason);
-    int index() const { return index_; }         ///< in the request
+    int index() const { return index_; }   ///< in the request
     int rank() const { return rank_; }
     Genome const& genome() const { return genome_; }
     std::string const& reason() const { return reason_; }
@@ -32,8 +32,8 @@ private:
 /// Where a rank's time went [s].
 struct RankTimes {
     double evaluation = 0;
-    double distances = 0;  ///< of rank 0 with all that it does about evaluations that arrive
-    double waiting = 0;   ///< with nothing to do but poll; of rank 0 while a request was under way
+    double distances = 0;   ///< of rank 0 with all that it does about evaluations that arrive
+    double waiting = 0;     ///< with nothing to do but poll; of rank 0 while a request was under way
 };
 
 /// The ranks of a communicator as one Evaluator, on rank 0. The others are in serve().
@@ -50,7 +50,8 @@ public:
 
     /// Throws EvaluationFailure. With other ranks at work, announces every evaluation.
     std::vector<Evaluation> evaluate(std::span<Genome const* const>, Audience* = nullptr) override;
-    /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors' way.
+    /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors'
+    /// way.
     void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
 
     /// A failure has been thrown while other ranks were at work: the program must end by Session::abort.
@@ -68,4 +69,4 @@ private:
 /// Works for the Farm on rank 0 until it stops.
 void serve(Communicator const&, StreamEvaluation const&);
 
-} // namespace lore
+}   // namespace lore

@@ -54,4 +54,4 @@ private:
 /// Name of the machine that this rank runs on.
 std::string host_name();
 
-} // namespace lore
+}   // namespace lore

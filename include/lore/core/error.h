@@ -8,9 +8,9 @@ namespace lore {
 
 /// What a program returns to its caller; scripts and batch systems rely on these numbers.
 enum class ExitCode : int {
-    done        = 0,
-    failure     = 1,   ///< any failure that is not the user's spelling
-    usage       = 2,   ///< command line or configuration
+    done = 0,
+    failure = 1,       ///< any failure that is not the user's spelling
+    usage = 2,         ///< command line or configuration
     interrupted = 75   ///< stopped at a checkpoint: run me again (EX_TEMPFAIL)
 };
 
@@ -20,7 +20,8 @@ enum class ExitCode : int {
 /// Only main() catches it, prints it once, and returns exit_code().
 class Error : public std::runtime_error {
 public:
-    Error(std::string_view problem, std::string_view reason, std::string_view remedy, ExitCode code = ExitCode::failure);
+    Error(std::string_view problem, std::string_view reason, std::string_view remedy,
+          ExitCode code = ExitCode::failure);
     ExitCode exit_code() const { return code_; }
 
 private:
@@ -37,4 +38,4 @@ public:
 /// The candidate nearest to a mistyped word by edit distance, or "" if none is close enough to be meant.
 std::string nearest_word(std::string_view typed, std::string_view const* candidates, std::size_t count);
 
-} // namespace lore
+}   // namespace lore

@@ -22,4 +22,4 @@ void use_isa(Isa);
 /// Floats in a native vector: 4, 8, 16.
 constexpr int lanes_of(Isa isa) { return isa == Isa::v4 ? 16 : isa == Isa::v3 ? 8 : 4; }
 
-} // namespace lore
+}   // namespace lore

@@ -16,7 +16,9 @@
 namespace lore {
 
 template <class T, int W>
-struct LanesOf { typedef T type __attribute__((vector_size(sizeof(T) * W))); };
+struct LanesOf {
+    typedef T type __attribute__((vector_size(sizeof(T) * W)));
+};
 
 /// W values of T that are computed on at once: a vector of the GCC/clang extension, with its operators + - * / and
 /// comparisons, which give a mask of W integers, 0 or -1. W should be the native width of the instruction set
@@ -28,13 +30,13 @@ using Lanes = typename LanesOf<T, W>::type;
 template <class F>
 struct LaneTraits {
     static constexpr int width = sizeof(F) / sizeof(float);
-    using Int  = Lanes<std::int32_t, width>;
+    using Int = Lanes<std::int32_t, width>;
     using Mask = Int;
 };
 template <>
 struct LaneTraits<float> {
     static constexpr int width = 1;
-    using Int  = std::int32_t;
+    using Int = std::int32_t;
     using Mask = bool;
 };
 template <class F>
@@ -61,7 +63,9 @@ LORE_INLINE V load(T const* from) {
     return v;
 }
 template <class V, class T>
-LORE_INLINE void store(T* to, V const& v) { std::memcpy(to, &v, sizeof v); }
+LORE_INLINE void store(T* to, V const& v) {
+    std::memcpy(to, &v, sizeof v);
+}
 
 /// All lanes equal to `value`.
 template <class V, class T>
@@ -72,7 +76,9 @@ LORE_INLINE V all_of(T value) {
 
 /// mask ? a : b, lane by lane.
 template <class M, class V>
-LORE_INLINE V select(M const& mask, V const& a, V const& b) { return mask ? a : b; }
+LORE_INLINE V select(M const& mask, V const& a, V const& b) {
+    return mask ? a : b;
+}
 
 /// a < b ? a : b; b where either is NaN.
 template <class V>
@@ -105,7 +111,9 @@ LORE_INLINE V max(V const& a, V const& b) {
 }
 
 template <class F>
-LORE_INLINE F abs(F const& x) { return cast_bits<F>(cast_bits<IntOf<F>>(x) & 0x7fffffff); }
+LORE_INLINE F abs(F const& x) {
+    return cast_bits<F>(cast_bits<IntOf<F>>(x) & 0x7fffffff);
+}
 
 /// Correctly rounded, as the scalar square root.
 template <class F>
@@ -142,7 +150,10 @@ LORE_INLINE F to_float(IntOf<F> const& i) {
 
 /// The nearest integer, halves to even, as float and as integer at the cost of two additions. Precondition: |x| < 2^22.
 template <class F>
-struct Rounded { F value; IntOf<F> integer; };
+struct Rounded {
+    F value;
+    IntOf<F> integer;
+};
 template <class F>
 LORE_INLINE Rounded<F> round(F const& x) {
     constexpr float magic = 12582912.0f;   // 1.5 * 2^23: the sum's last mantissa bit is worth 1
@@ -174,7 +185,9 @@ LORE_INLINE std::uint32_t mask_bits(M const& mask) {
 }
 
 template <class M>
-LORE_INLINE bool any(M const& mask) { return mask_bits(mask) != 0; }
+LORE_INLINE bool any(M const& mask) {
+    return mask_bits(mask) != 0;
+}
 template <class M>
 LORE_INLINE bool all(M const& mask) {
     if constexpr (std::is_same_v<M, bool>) return mask;
@@ -225,7 +238,9 @@ LORE_INLINE auto gather(T const* table, I const& index) {
 
 /// The two halves of 64-bit words, lane by lane.
 template <class I>
-struct WordPair { I low, high; };
+struct WordPair {
+    I low, high;
+};
 
 /// Words number `index` of a table of 64-bit words (two 32-bit halves each, low half first).
 template <class I>
@@ -245,7 +260,7 @@ LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
     } else
 #endif
 #if defined(__AVX2__)
-    if constexpr (width == 8) {
+        if constexpr (width == 8) {
         auto const* const words = static_cast<long long const*>(table);
         __m256i const a = _mm256_i32gather_epi64(words, _mm256_castsi256_si128((__m256i)index), 8);
         __m256i const b = _mm256_i32gather_epi64(words, _mm256_extracti128_si256((__m256i)index, 1), 8);
@@ -266,5 +281,5 @@ LORE_INLINE WordPair<I> gather_pairs(void const* table, I const& index) {
     }
 }
 
-} // namespace lanes
-} // namespace lore
+}   // namespace lanes
+}   // namespace lore

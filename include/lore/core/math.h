@@ -32,7 +32,9 @@ LORE_INLINE F exp(F const& argument) {
 }
 
 template <class F>
-struct SinCos { F sin, cos; };
+struct SinCos {
+    F sin, cos;
+};
 
 /// Sine and cosine for |x| <= 1000 [rad]: within 2 ulp for |x| <= pi, absolute error below 1e-7 beyond.
 template <class F>
@@ -43,8 +45,9 @@ LORE_INLINE SinCos<F> sincos(F const& x) {
     F const square = r * r;
     // Polynomials of Cephes' sinf and cosf (Moshier).
     F const sine = ((square * -1.9515295891e-4f + 8.3321608736e-3f) * square - 1.6666654611e-1f) * square * r + r;
-    F const cosine = ((square * 2.443315711809948e-5f - 1.388731625493765e-3f) * square + 4.166664568298827e-2f) * square * square
-                   - square * 0.5f + 1.0f;
+    F const cosine =
+        ((square * 2.443315711809948e-5f - 1.388731625493765e-3f) * square + 4.166664568298827e-2f) * square * square -
+        square * 0.5f + 1.0f;
     auto const swapped = (q.integer & 1) != 0;
     IntOf<F> const sine_sign = (q.integer & 2) << 30;
     IntOf<F> const cosine_sign = ((q.integer + 1) & 2) << 30;
@@ -71,4 +74,4 @@ constexpr double log(double x) {
     return exponent * ln2_high + (2.0 * s + (2.0 * s * series + exponent * ln2_low));
 }
 
-} // namespace lore::math
+}   // namespace lore::math

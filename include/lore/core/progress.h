@@ -36,4 +36,4 @@ private:
 /// "1:02:03" or "2:03".
 std::string duration_text(double seconds);
 
-} // namespace lore
+}   // namespace lore

@@ -16,8 +16,10 @@ public:
 
     void add(std::uint64_t word) {
         value_ ^= word + 0x9e3779b97f4a7c15u + (value_ << 6) + (value_ >> 2);
-        value_ ^= value_ >> 30; value_ *= 0xbf58476d1ce4e5b9u;
-        value_ ^= value_ >> 27; value_ *= 0x94d049bb133111ebu;
+        value_ ^= value_ >> 30;
+        value_ *= 0xbf58476d1ce4e5b9u;
+        value_ ^= value_ >> 27;
+        value_ *= 0x94d049bb133111ebu;
         value_ ^= value_ >> 31;
     }
     /// By bit pattern, so that the last bit counts.
@@ -31,4 +33,4 @@ private:
     std::uint64_t value_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

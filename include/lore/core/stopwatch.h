@@ -22,4 +22,4 @@ private:
     Clock::time_point lap_ = start_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -52,4 +52,4 @@ private:
     std::shared_ptr<Node> node_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -11,11 +11,13 @@ namespace lore {
 template <class Integer, class Json>
 Integer whole_number(Json const& json) {
     if (json.is_number_unsigned()) {
-        if (auto const value = json.template get<std::uint64_t>(); std::in_range<Integer>(value)) return static_cast<Integer>(value);
+        if (auto const value = json.template get<std::uint64_t>(); std::in_range<Integer>(value))
+            return static_cast<Integer>(value);
     } else if (json.is_number_integer()) {
-        if (auto const value = json.template get<std::int64_t>(); std::in_range<Integer>(value)) return static_cast<Integer>(value);
+        if (auto const value = json.template get<std::int64_t>(); std::in_range<Integer>(value))
+            return static_cast<Integer>(value);
     }
     throw std::out_of_range("'" + json.dump() + "' is not a whole number of the range expected");
 }
 
-} // namespace lore
+}   // namespace lore

@@ -10,9 +10,9 @@
 namespace lore {
 
 struct EpisodeConfig {
-    int steps = 4000;            ///< Length of an evaluation [steps]. Paper: 4000.
-    int stop_when_still = 0;     ///< Stop once more than this many steps in all went by without movement (position and
-                                 ///< heading changed by at most 1e-4); 0: never. The predecessor: 100.
+    int steps = 4000;          ///< Length of an evaluation [steps]. Paper: 4000.
+    int stop_when_still = 0;   ///< Stop once more than this many steps in all went by without movement (position and
+                               ///< heading changed by at most 1e-4); 0: never. The predecessor: 100.
 };
 
 /// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
@@ -26,7 +26,7 @@ struct Trace {
     std::vector<std::uint16_t> bits;
     /// [step][6], continuous_channels order.
     std::vector<float> values;
-    std::vector<Pose> poses;      ///< before the move of that step
+    std::vector<Pose> poses;   ///< before the move of that step
     WorldState final_world;
 
     int steps() const { return static_cast<int>(bits.size()); }
@@ -54,4 +54,4 @@ WorldState run_episode(Arena const&, Network const&, EpisodeConfig const&,
 /// The same, recorded.
 Trace record_episode(Arena const&, Network const&, EpisodeConfig const&);
 
-} // namespace lore
+}   // namespace lore

@@ -43,8 +43,8 @@ class EpisodeSource {
 public:
     virtual ~EpisodeSource() = default;
     struct Episode {
-        int number = 0;                    ///< what the observer is told
-        Network const* network = nullptr;  ///< valid until the observer's end
+        int number = 0;                     ///< what the observer is told
+        Network const* network = nullptr;   ///< valid until the observer's end
     };
     /// The next episode, if there is one now; asked again before every chunk while a lane is idle.
     virtual std::optional<Episode> next() = 0;
@@ -58,4 +58,4 @@ void run_in_lanes(Arena const&, EpisodeConfig const&, std::span<Network const> e
 /// size follow each other.
 void run_in_lanes(Arena const&, EpisodeConfig const&, EpisodeSource&, int chunk_steps, LaneObserver&);
 
-} // namespace lore
+}   // namespace lore

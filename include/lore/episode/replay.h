@@ -10,17 +10,17 @@ namespace lore {
 /// One step of an evaluation with all there is to know: a row of trace.csv (docs/formats.md).
 struct StepRecord {
     int step = 0;
-    Pose pose;                ///< when the sensors are read
+    Pose pose;   ///< when the sensors are read
     Sensors sensors{};
     Effectors effectors{};
     // The world after the action of this step:
     bool carrying = false;
     bool door_open = false;
-    std::uint16_t balls = 0;  ///< bit i: ball i lies on the floor
+    std::uint16_t balls = 0;   ///< bit i: ball i lies on the floor
     int collected = 0;
     bool switch_lit = true;
     int switch_timer = 0;
-    Pose next;                ///< after the move
+    Pose next;   ///< after the move
     friend bool operator==(StepRecord const&, StepRecord const&) = default;
 };
 
@@ -35,4 +35,4 @@ std::vector<StepRecord> drive(Arena const&, std::span<Effectors const> actions);
 /// compared with the record row by row, because errors do not add up.
 std::vector<StepRecord> follow(Arena const&, std::span<StepRecord const> recorded);
 
-} // namespace lore
+}   // namespace lore

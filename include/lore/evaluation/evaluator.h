@@ -12,7 +12,7 @@ namespace lore {
 
 /// All that an individual's life in the arena leaves behind; the trace itself dies where it was born.
 struct Evaluation {
-    int    balls = 0;                    ///< delivered into the basket
+    int balls = 0;                       ///< delivered into the basket
     double shaping = no_feature_value;   ///< RS; -1 without a knowledge base
     Descriptors descriptors;
     friend bool operator==(Evaluation const&, Evaluation const&) = default;
@@ -35,8 +35,8 @@ class EvaluationFeed {
 public:
     virtual ~EvaluationFeed() = default;
     struct Item {
-        int ticket = 0;                  ///< told back with the evaluation
-        Genome const* genome = nullptr;  ///< read at once
+        int ticket = 0;                   ///< told back with the evaluation
+        Genome const* genome = nullptr;   ///< read at once
     };
     /// The next genome, if there is one now; asked again every few microseconds while a lane is idle. Cheapest if
     /// genomes of similar size follow each other.
@@ -81,4 +81,4 @@ private:
     EvaluationContext context_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -11,8 +11,8 @@ namespace lore {
 
 /// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used.
 struct EvolutionConfig {
-    int population  = 200;    ///< survivors of a generation, and children of one. Paper: 200.
-    int founders    = 400;    ///< random individuals of generation 0, at least `population`
+    int population = 200;     ///< survivors of a generation, and children of one. Paper: 200.
+    int founders = 400;       ///< random individuals of generation 0, at least `population`
     int generations = 4000;   ///< Paper: 4000.
     TieRule ties = TieRule::random;
     bool use_diversity = true;   ///< objective BD; measured and reported in any case
@@ -32,15 +32,15 @@ struct GenerationReport {
     int generation = 0;
     DistanceKind distance = DistanceKind::adhoc;
     int fronts = 0;
-    std::span<Individual const> born;      ///< everybody evaluated in this generation
-    EvolutionState const* state = nullptr; ///< after selection
-    double selection_seconds = 0;          ///< spent on breeding, ranking and choosing; the evaluator knows its own times
+    std::span<Individual const> born;        ///< everybody evaluated in this generation
+    EvolutionState const* state = nullptr;   ///< after selection
+    double selection_seconds = 0;   ///< spent on breeding, ranking and choosing; the evaluator knows its own times
 };
 
 /// Called after each generation, the founders' (0) included; returns whether to go on.
 using GenerationObserver = std::function<bool(GenerationReport const&)>;
 
-/// The paper's method (NSGA-II with dynamic behavioural diversity) from `state`, or from the founders where it is
+/// The paper's method (NSGA-II with dynamic behavioral diversity) from `state`, or from the founders where it is
 /// empty, to config.generations or until the observer says stop. A pure function of config, seed and evaluator.
 EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state,
                       GenerationObserver const&);
@@ -48,4 +48,4 @@ EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, Ev
 /// Most balls in the population; ties: the earliest born, then the lowest slot.
 Individual const& best_of_run(Population const&);
 
-} // namespace lore
+}   // namespace lore

@@ -23,13 +23,13 @@ struct Birth {
     IndividualId id;
     std::shared_ptr<Birth const> parent;   ///< null for founders
     Genome genome;
-    int    balls = 0;
+    int balls = 0;
     double shaping = no_feature_value;
-    double diversity = 0;                  ///< BD in the joint ranking of its generation of birth
-    ~Birth();                              ///< releases a long lineage without recursion
+    double diversity = 0;   ///< BD in the joint ranking of its generation of birth
+    ~Birth();               ///< releases a long lineage without recursion
 };
 
-/// Objectives, all maximised, in the order of the treatment (balls, diversity, shaping).
+/// Objectives, all maximized, in the order of the treatment (balls, diversity, shaping).
 struct Objectives {
     std::array<double, 3> value{};
     int count = 0;
@@ -54,4 +54,4 @@ struct Population {
     DistanceKind distance_kind = DistanceKind::adhoc;
 };
 
-} // namespace lore
+}   // namespace lore

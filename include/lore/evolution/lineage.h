@@ -13,4 +13,4 @@ std::vector<Birth const*> lineage_of(Birth const&);
 /// Every ancestor of the members, the members included, each once, in order of birth.
 std::vector<Birth const*> ancestors_of(std::span<Individual const> members);
 
-} // namespace lore
+}   // namespace lore

@@ -25,11 +25,11 @@ std::vector<int> tournament_winners(std::span<Individual const> members, int cou
 
 /// What a joint ranking found.
 struct Ranking {
-    std::vector<int> survivors;      ///< indices into the pool, front by front, in a front by crowding then tie key
-    std::vector<double> crowding;    ///< of every member of the pool
+    std::vector<int> survivors;     ///< indices into the pool, front by front, in a front by crowding then tie key
+    std::vector<double> crowding;   ///< of every member of the pool
     int fronts = 0;
 };
 /// Whole fronts until one must be cut by crowding distance.
 Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> tie_keys, int survivors);
 
-} // namespace lore
+}   // namespace lore

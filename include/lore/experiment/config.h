@@ -11,10 +11,10 @@ namespace lore {
 
 /// One run, completely: a treatment is a value, not a build.
 struct ExperimentConfig {
-    std::string name = "source";        ///< of the treatment, for people
-    std::string arena = "collectball";  ///< built-in arena's name, or a path, relative to the configuration file;
-                                       ///< in an override, to the working directory
-    std::string task = "source";        ///< one of the arena's tasks
+    std::string name = "source";         ///< of the treatment, for people
+    std::string arena = "collectball";   ///< built-in arena's name, or a path, relative to the configuration file;
+                                         ///< in an override, to the working directory
+    std::string task = "source";         ///< one of the arena's tasks
     EpisodeConfig episode;
     EvolutionConfig evolution;
     KnowledgeConfig knowledge;          ///< what a --kb must fit
@@ -34,4 +34,4 @@ std::string to_toml(ExperimentConfig const&);
 /// Settings ("section.key") whose values differ.
 std::vector<std::string> differing_settings(ExperimentConfig const&, ExperimentConfig const&);
 
-} // namespace lore
+}   // namespace lore

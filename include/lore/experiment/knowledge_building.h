@@ -21,12 +21,12 @@ using BuildingObserver = std::function<void(std::int64_t individuals, std::int64
 /// Algorithm 1 over the lineage of `individual`, itself first.
 KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexKind,
                                    Provenance, BuildingObserver const&);
-/// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th after
-/// it, if that is not 1. Throws Error if the run did not keep them.
+/// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
+/// after it, if that is not 1. Throws Error if the run did not keep them.
 KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexKind, Provenance,
                                BuildingObserver const&);
 
 /// How many individuals the run archived (--archive all).
 std::uint64_t archived_individuals(RunDirectory const&);
 
-} // namespace lore
+}   // namespace lore

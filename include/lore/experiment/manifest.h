@@ -14,8 +14,8 @@ std::string_view name(RunStatus);
 
 /// A file that went into a run or came out of it, and what it was like.
 struct FileRecord {
-    std::string role;       ///< "configuration", "arena", "knowledge base", or that of an output
-    std::string path;       ///< inputs as given, outputs relative to the run's directory
+    std::string role;   ///< "configuration", "arena", "knowledge base", or that of an output
+    std::string path;   ///< inputs as given, outputs relative to the run's directory
     std::uint64_t bytes = 0;
     std::string checksum;   ///< XXH3-64, 16 hexadecimal digits
 };
@@ -29,8 +29,8 @@ struct RunSession {
     int ranks = 1;
     std::vector<std::string> hosts;
     std::string isa;
-    double seconds = 0;             ///< of wall time
-    std::string reason;             ///< of the stop: "done", "signal 15", "time limit", ...
+    double seconds = 0;   ///< of wall time
+    std::string reason;   ///< of the stop: "done", "signal 15", "time limit", ...
 };
 
 /// Provenance of a run: manifest.json (docs/formats.md).
@@ -39,11 +39,11 @@ struct Manifest {
     std::string name;
     std::string task;
     std::uint64_t seed = 1;
-    std::string signature;          ///< as of the last checkpoint or the end
-    int generation = 0;             ///< likewise
-    int generations = 0;            ///< that the run is to reach
-    int best_balls = 0;             ///< of the best-of-run, likewise
-    std::string best;               ///< its id
+    std::string signature;   ///< as of the last checkpoint or the end
+    int generation = 0;      ///< likewise
+    int generations = 0;     ///< that the run is to reach
+    int best_balls = 0;      ///< of the best-of-run, likewise
+    std::string best;        ///< its id
     BuildInformation build;
     std::vector<FileRecord> inputs, outputs;
     std::vector<RunSession> sessions;
@@ -59,4 +59,4 @@ FileRecord const* find_role(std::vector<FileRecord> const&, std::string_view rol
 /// Now, UTC, as "2025-01-31T12:00:00Z".
 std::string time_stamp();
 
-} // namespace lore
+}   // namespace lore

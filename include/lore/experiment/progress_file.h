@@ -12,19 +12,19 @@ namespace lore {
 /// One generation in progress.csv; the columns in this order.
 struct ProgressRow {
     int generation = 0;
-    int best_balls = 0;            ///< of the population after selection
+    int best_balls = 0;   ///< of the population after selection
     double mean_balls = 0;
     DistanceKind distance = DistanceKind::adhoc;
-    double mean_diversity = 0;     ///< BD over the survivors
+    double mean_diversity = 0;   ///< BD over the survivors
     double best_shaping = no_feature_value;
     double mean_connections = 0;
-    double mean_hidden = 0;        ///< hidden neurons
-    int fronts = 0;                ///< of the joint ranking
-    int tied = 0;                  ///< survivors that share all objectives with another
-    double shaping_at_max = 0;     ///< share of the population that has best_shaping; 0 without a knowledge base
-    std::uint64_t evaluations = 0; ///< of the whole run up to here
-    std::uint64_t steps = 0;       ///< simulated, likewise
-    double seconds = 0;            ///< of wall time spent on this run, all sessions together
+    double mean_hidden = 0;          ///< hidden neurons
+    int fronts = 0;                  ///< of the joint ranking
+    int tied = 0;                    ///< survivors that share all objectives with another
+    double shaping_at_max = 0;       ///< share of the population that has best_shaping; 0 without a knowledge base
+    std::uint64_t evaluations = 0;   ///< of the whole run up to here
+    std::uint64_t steps = 0;         ///< simulated, likewise
+    double seconds = 0;              ///< of wall time spent on this run, all sessions together
     friend bool operator==(ProgressRow const&, ProgressRow const&) = default;
 };
 
@@ -56,4 +56,4 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

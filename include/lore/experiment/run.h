@@ -17,12 +17,12 @@ struct RunOptions {
     std::vector<std::string> overrides;   ///< "section.key=value"
     std::optional<std::uint64_t> seed;    ///< default 1, or that of the run resumed
     std::string directory;
-    std::string knowledge_base;           ///< a path, or empty
+    std::string knowledge_base;   ///< a path, or empty
     bool resume = false;
     bool archive_all = false;
     bool quiet = false;
-    std::optional<double> max_seconds;    ///< of this session
-    std::string command_line;             ///< for the manifest
+    std::optional<double> max_seconds;   ///< of this session
+    std::string command_line;            ///< for the manifest
 };
 
 struct RunOutcome {
@@ -49,4 +49,4 @@ void work_for_rank_0(Session const&);
 /// For rank 0, where it has nothing for the others to do.
 void release_other_ranks(Session const&);
 
-} // namespace lore
+}   // namespace lore

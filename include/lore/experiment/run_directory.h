@@ -19,7 +19,7 @@ inline constexpr char checkpoint[] = "checkpoint.lore";
 inline constexpr char older_checkpoint[] = "checkpoint-older.lore";
 inline constexpr char failed_genome[] = "failed-genome.lore";
 inline constexpr char lock[] = "lock";
-} // namespace run_file
+}   // namespace run_file
 
 /// A directory that lore-evolve wrote, read back by the other programs.
 struct RunDirectory {
@@ -39,4 +39,4 @@ std::string text(IndividualId);
 /// Throws UsageError.
 IndividualId individual_id(std::string_view text);
 
-} // namespace lore
+}   // namespace lore

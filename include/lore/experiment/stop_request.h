@@ -14,4 +14,4 @@ void ignore_stop_signals();
 /// "signal 10 (User defined signal 1)", or "" while nobody has asked.
 std::string stop_request();
 
-} // namespace lore
+}   // namespace lore

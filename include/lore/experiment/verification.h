@@ -11,4 +11,4 @@ namespace lore {
 /// wrong with it, or that it is no file of Lore.
 std::string verify(std::string const& path);
 
-} // namespace lore
+}   // namespace lore

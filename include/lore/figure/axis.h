@@ -18,4 +18,4 @@ std::vector<double> ticks(double least, double most, int count);
 /// As a label: no more digits than needed.
 std::string tick_label(double value);
 
-} // namespace lore
+}   // namespace lore

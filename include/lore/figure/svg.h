@@ -6,12 +6,12 @@
 
 namespace lore {
 
-/// How a shape is painted. Colours as in CSS; "none" paints nothing.
+/// How a shape is painted. Colors as in CSS; "none" paints nothing.
 struct Paint {
     std::string_view fill = "none";
     std::string_view stroke = "none";
-    double width = 1;              ///< of the stroke [pixels]
-    std::string_view dashes = "";  ///< as "4 3"; empty: solid
+    double width = 1;               ///< of the stroke [pixels]
+    std::string_view dashes = "";   ///< as "4 3"; empty: solid
     double opacity = 1;
 };
 
@@ -20,13 +20,15 @@ enum class Anchor { start, middle, end };
 /// A text label; its size is the document's unless given.
 struct Label {
     Anchor anchor = Anchor::start;
-    double size = 12;                 ///< [pixels]
+    double size = 12;   ///< [pixels]
     std::string_view color = "#222222";
     bool bold = false;
-    double rotation = 0;              ///< clockwise about the anchor [degrees]
+    double rotation = 0;   ///< clockwise about the anchor [degrees]
 };
 
-struct SvgPoint { double x = 0, y = 0; };
+struct SvgPoint {
+    double x = 0, y = 0;
+};
 
 /// An SVG document that grows, shape over shape; lengths in pixels from the top left corner, two decimals kept.
 ///
@@ -40,7 +42,7 @@ public:
     void line(SvgPoint from, SvgPoint to, Paint const&);
     void polyline(std::span<SvgPoint const>, Paint const&);
     void polygon(std::span<SvgPoint const>, Paint const&);
-    void circle(SvgPoint centre, double radius, Paint const&);
+    void circle(SvgPoint center, double radius, Paint const&);
     void rect(SvgPoint corner, double width, double height, Paint const&);
     void text(SvgPoint at, std::string_view content, Label const& = {});
     /// What is drawn until end_group is shown only within the rectangle.
@@ -57,4 +59,4 @@ private:
 /// PNG bytes of an SVG document, `scale` pixels per user unit (librsvg behind this door). Throws Error.
 std::string render_png(std::string_view svg, double scale = 1.5);
 
-} // namespace lore
+}   // namespace lore

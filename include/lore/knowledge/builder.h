@@ -42,4 +42,4 @@ private:
     std::uint64_t individuals_ = 0, windows_ = 0, matched_ = 0;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -19,4 +19,4 @@ KnowledgeBase keep_shown(KnowledgeBase const& base, int least_count);
 /// future work). Throws UsageError if their window lengths differ.
 KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others);
 
-} // namespace lore
+}   // namespace lore

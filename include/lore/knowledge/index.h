@@ -10,7 +10,7 @@
 namespace lore {
 
 struct Match {
-    int   feature = -1;            ///< -1: no feature within the threshold
+    int feature = -1;                                                  ///< -1: no feature within the threshold
     float squared_distance = std::numeric_limits<float>::infinity();   ///< to that feature; infinity if none
     bool found() const { return feature >= 0; }
     friend bool operator==(Match const&, Match const&) = default;
@@ -30,10 +30,17 @@ public:
     virtual Match match(Window const&) = 0;
     /// match(), where only a feature worth more than `least` is of interest: anything else may be reported as none.
     /// Precondition: FeatureIndex::set_values was called.
-    virtual Match match_above(Window const& window, double least) { (void)least; return match(window); }
+    virtual Match match_above(Window const& window, double least) {
+        (void)least;
+        return match(window);
+    }
     /// False if no window with these bits, whatever its values, matches a feature worth more than `least`.
     /// Precondition as above.
-    virtual bool may_match_above(std::span<std::uint16_t const> bits, double least) { (void)bits; (void)least; return true; }
+    virtual bool may_match_above(std::span<std::uint16_t const> bits, double least) {
+        (void)bits;
+        (void)least;
+        return true;
+    }
 };
 
 /// The windows of features, one after the other; the only copy while a knowledge base is being built.
@@ -68,4 +75,4 @@ std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const&);
 std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = 128);
 std::unique_ptr<FeatureIndex> make_index(IndexKind, KnowledgeConfig const&);
 
-} // namespace lore
+}   // namespace lore

@@ -12,15 +12,15 @@ namespace lore {
 
 /// Where a knowledge base came from; goes into its file and is shown by `lore-kb info`.
 struct Provenance {
-    std::string made_by;                ///< command line and version
-    std::string kind;                   ///< "lineage", "all", "random", "reduced"
-    std::string index;                  ///< "exact" or "flann": the index that found the matches while building
-    std::vector<std::string> sources;   ///< runs or knowledge bases it was made from
+    std::string made_by;                   ///< command line and version
+    std::string kind;                      ///< "lineage", "all", "random", "reduced"
+    std::string index;                     ///< "exact" or "flann": the index that found the matches while building
+    std::vector<std::string> sources;      ///< runs or knowledge bases it was made from
     std::vector<std::string> derivation;   ///< what was done to it since it was built, in order
-    std::string task;                   ///< the arena's and task's name
-    std::uint64_t individuals = 0;      ///< whose windows were read
+    std::string task;                      ///< the arena's and task's name
+    std::uint64_t individuals = 0;         ///< whose windows were read
     std::uint64_t windows = 0;
-    int best_balls = 0;                 ///< of the best-of-run whose lineage it is
+    int best_balls = 0;   ///< of the best-of-run whose lineage it is
     friend bool operator==(Provenance const&, Provenance const&) = default;
 };
 
@@ -33,7 +33,7 @@ struct KnowledgeArrays {
     std::vector<std::uint32_t> counts;   ///< [feature]
 };
 
-/// Behavioural features and what those who showed them earned (paper, "Knowledge building process").
+/// Behavioral features and what those who showed them earned (paper, "Knowledge building process").
 ///
 /// Feature i has the window (bits, values)[i], the rewards' sum and the number of individuals that exhibited it; its
 /// value is sum / count, or what randomize gave it. Features are numbered in the order in which they were first met.
@@ -44,7 +44,7 @@ public:
     Provenance const& provenance() const { return parts_.provenance; }
     int size() const { return static_cast<int>(parts_.values.size()); }
 
-    Window window(int feature) const;                                ///< valid as long as the knowledge base
+    Window window(int feature) const;   ///< valid as long as the knowledge base
     double value(int feature) const { return parts_.values[static_cast<std::size_t>(feature)]; }   ///< r_i [balls]
     double reward_sum(int feature) const { return parts_.reward_sums[static_cast<std::size_t>(feature)]; }
     std::uint32_t count(int feature) const {
@@ -56,11 +56,11 @@ public:
     struct Parts {
         KnowledgeConfig config;
         Provenance provenance;
-        std::span<std::uint16_t const> bits;   ///< [feature][step]
-        std::span<float const> windows;        ///< [feature][step][6]
-        std::span<double const> values;        ///< [feature]
-        std::span<double const> reward_sums;   ///< [feature]
-        std::span<std::uint32_t const> counts; ///< [feature]
+        std::span<std::uint16_t const> bits;     ///< [feature][step]
+        std::span<float const> windows;          ///< [feature][step][6]
+        std::span<double const> values;          ///< [feature]
+        std::span<double const> reward_sums;     ///< [feature]
+        std::span<std::uint32_t const> counts;   ///< [feature]
         std::shared_ptr<void const> keep_alive;
     };
     explicit KnowledgeBase(Parts);
@@ -72,4 +72,4 @@ private:
     Parts parts_;
 };
 
-} // namespace lore
+}   // namespace lore

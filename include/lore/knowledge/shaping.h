@@ -53,4 +53,4 @@ private:
     std::shared_ptr<State> state_;
 };
 
-} // namespace lore
+}   // namespace lore

@@ -15,4 +15,4 @@ struct ValueSummary {
 /// Bins of equal width from the lowest to the highest value; one bin where these are equal, none for no values.
 ValueSummary summarize(std::span<double const> values, int bins);
 
-} // namespace lore
+}   // namespace lore

@@ -13,7 +13,7 @@ inline constexpr int longest_window = 4000;   ///< [steps]: an evaluation of the
 
 /// How windows are cut and matched.
 struct KnowledgeConfig {
-    int   window_length   = 20;     ///< Steps per window, 1 to longest_window [steps]. Paper: T = 20.
+    int window_length = 20;   ///< Steps per window, 1 to longest_window [steps]. Paper: T = 20.
     float match_threshold =
         1.83f;   ///< A window nearer than this to its nearest feature is that feature [L2, not squared; strict].
 
@@ -42,4 +42,4 @@ std::vector<Window> windows_of(Trace const&, int window_length);
 /// pairwise (8 + 8, 4 + 4, 2 + 2, 1 + 1), and the differing bits last.
 float squared_distance(Window const&, Window const&);
 
-} // namespace lore
+}   // namespace lore

@@ -17,21 +17,21 @@ inline constexpr int first_hidden = channel_count;
 /// Ranges of the paper's appendix; their upper ends are enforced as limits, an addition beyond them is not done.
 struct NetworkLimits {
     int max_hidden = 30;   ///< Hidden neurons. Paper: number of neurons up to 30.
-    int max_edges  = 250;  ///< Connections. Paper: up to 250.
+    int max_edges = 250;   ///< Connections. Paper: up to 250.
 };
 /// What a Genome can hold whatever the configuration; files and messages are checked against these.
 inline constexpr int most_hidden = 64;
-inline constexpr int most_edges  = 1024;
+inline constexpr int most_edges = 1024;
 
 /// Weights and biases are stored as genes in [0, 1] and mean gene * 10 - 5.
-inline constexpr float gene_span   = 10.0f;
+inline constexpr float gene_span = 10.0f;
 inline constexpr float gene_origin = -5.0f;
 constexpr float decode_gene(float gene) { return gene * gene_span + gene_origin; }
 
 struct Edge {
     NeuronIndex source = 0;
     NeuronIndex target = 0;
-    float       weight = 0;   ///< gene in [0, 1]
+    float weight = 0;   ///< gene in [0, 1]
     friend bool operator==(Edge const&, Edge const&) = default;
 };
 
@@ -40,7 +40,7 @@ struct Edge {
 /// Invariants (is_valid): sources are inputs or hidden, targets are outputs or hidden, no two edges share both ends,
 /// genes in [0, 1]. The order of the edges is part of the genome: mutation walks them in it.
 struct Genome {
-    std::vector<Edge>  edges;
+    std::vector<Edge> edges;
     std::vector<float> biases;   ///< genes; the 3 outputs first, then the hidden neurons: biases.size() == 3 + hidden
 
     int hidden_count() const { return static_cast<int>(biases.size()) - effector_count; }
@@ -53,4 +53,4 @@ std::string why_invalid(Genome const&);
 /// A random individual of generation 0: every input connected to every output, all genes uniform.
 Genome founder(Stream rng);
 
-} // namespace lore
+}   // namespace lore

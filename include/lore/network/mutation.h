@@ -6,14 +6,14 @@ namespace lore {
 
 /// Probabilities of the mutation operators (paper, appendix; eta from the published experiment code).
 struct MutationConfig {
-    double weight_probability        = 0.10;  ///< per weight gene: polynomial mutation
-    double bias_probability          = 0.10;  ///< per bias gene: polynomial mutation
-    double rewire_probability        = 0.03;  ///< per edge, at most one edge a mutation
-    double add_edge_probability      = 0.15;
-    double delete_edge_probability   = 0.05;
-    double add_neuron_probability    = 0.05;  ///< splits an edge
+    double weight_probability = 0.10;   ///< per weight gene: polynomial mutation
+    double bias_probability = 0.10;     ///< per bias gene: polynomial mutation
+    double rewire_probability = 0.03;   ///< per edge, at most one edge a mutation
+    double add_edge_probability = 0.15;
+    double delete_edge_probability = 0.05;
+    double add_neuron_probability = 0.05;   ///< splits an edge
     double delete_neuron_probability = 0.05;
-    int    eta                       = 15;    ///< distribution index of the polynomial mutation; 2^k - 1
+    int eta = 15;   ///< distribution index of the polynomial mutation; 2^k - 1
 };
 
 /// Mutates in place, operators in the order of the declarations below (experiment: section 5).
@@ -33,4 +33,4 @@ bool delete_edge(Genome&, Stream& rng);
 bool split_edge(Genome&, NetworkLimits const&, Stream& rng);
 bool delete_neuron(Genome&, Stream& rng);
 
-} // namespace lore
+}   // namespace lore

@@ -15,10 +15,11 @@ namespace lore {
 /// index, starting from zero: this order is part of the definition, because float addition is not associative.
 struct Network {
     int hidden_count = 0;
-    std::vector<std::uint16_t> first;   ///< per target (3 outputs, then hidden), first entry in source/weight; size targets + 1
-    std::vector<std::uint8_t>  source;  ///< 0..11 input, 12.. hidden
-    std::vector<float>         weight;  ///< decoded, [-5, 5]
-    std::vector<float>         bias;    ///< per target: decoded bias times 5, as the activation uses it
+    std::vector<std::uint16_t>
+        first;   ///< per target (3 outputs, then hidden), first entry in source/weight; size targets + 1
+    std::vector<std::uint8_t> source;   ///< 0..11 input, 12.. hidden
+    std::vector<float> weight;          ///< decoded, [-5, 5]
+    std::vector<float> bias;            ///< per target: decoded bias times 5, as the activation uses it
 
     int target_count() const { return effector_count + hidden_count; }
     int edge_count() const { return static_cast<int>(source.size()); }
@@ -33,6 +34,7 @@ struct NetworkState {
 
 /// One synchronous tick: y = 1 / (1 + exp(5 b - sum w x)); every neuron reads the present inputs and the hidden
 /// neurons' outputs of the previous tick, so an input-output edge has no delay and each hidden neuron adds one tick.
-void tick(Network const&, std::span<float const, sensor_count> inputs, NetworkState&, std::span<float, effector_count> outputs);
+void tick(Network const&, std::span<float const, sensor_count> inputs, NetworkState&,
+          std::span<float, effector_count> outputs);
 
-} // namespace lore
+}   // namespace lore

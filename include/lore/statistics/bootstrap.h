@@ -7,9 +7,9 @@
 namespace lore {
 
 struct BootstrapConfig {
-    int           resamples = 2000;
-    double        level = 0.95;   ///< coverage of the band
-    std::uint64_t seed = 1;       ///< of Stream(seed, Purpose::bootstrap): the same band every time
+    int resamples = 2000;
+    double level = 0.95;      ///< coverage of the band
+    std::uint64_t seed = 1;   ///< of Stream(seed, Purpose::bootstrap): the same band every time
 };
 
 /// A mean and its pointwise band; one entry a column.
@@ -28,8 +28,9 @@ struct Interval {
     double low = 0, high = 0;
 };
 
-/// Percentile bootstrap interval of vargha_delaney_a12: both samples are drawn anew, each from itself. Of no width where
-/// no value of one sample lies among those of the other. Throws Error for an empty sample or one that holds a NaN.
+/// Percentile bootstrap interval of vargha_delaney_a12: both samples are drawn anew, each from itself. Of no width
+/// where no value of one sample lies among those of the other. Throws Error for an empty sample or one that holds a
+/// NaN.
 Interval bootstrap_a12(std::span<double const> first, std::span<double const> second, BootstrapConfig const& = {});
 
-} // namespace lore
+}   // namespace lore

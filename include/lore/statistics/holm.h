@@ -12,4 +12,4 @@ namespace lore {
 /// [0, 1].
 std::vector<double> holm_adjusted(std::span<double const> p_values);
 
-} // namespace lore
+}   // namespace lore

@@ -11,7 +11,7 @@ inline constexpr int exact_sample_limit = 100;
 struct MannWhitney {
     double u = 0;         ///< of the first sample: pairs in which it is larger, plus half the pairs that are equal
     double p = 1;         ///< two-sided, in [0, 1]
-    bool   exact = false; ///< whether p comes from the exact distribution of U or from its normal approximation
+    bool exact = false;   ///< whether p comes from the exact distribution of U or from its normal approximation
 };
 
 /// Exact where no value occurs twice and neither sample exceeds exact_sample_limit; else the normal approximation with
@@ -26,4 +26,4 @@ MannWhitney mann_whitney(std::span<double const> first, std::span<double const> 
 /// Throws Error for an empty sample or one that holds a NaN.
 double vargha_delaney_a12(std::span<double const> first, std::span<double const> second);
 
-} // namespace lore
+}   // namespace lore

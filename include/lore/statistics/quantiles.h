@@ -12,7 +12,7 @@ double quantile(std::span<double const> sample, double fraction);
 
 /// What a boxplot shows.
 struct FiveNumbers {
-    double low_whisker  = 0;   ///< smallest value within 1.5 interquartile ranges of the lower quartile (Tukey)
+    double low_whisker = 0;   ///< smallest value within 1.5 interquartile ranges of the lower quartile (Tukey)
     double lower_quartile = 0;
     double median = 0;
     double upper_quartile = 0;
@@ -25,4 +25,4 @@ double mean(std::span<double const> sample);
 /// Standard deviation with n - 1 below the root; 0 for a single value. Throws Error for an empty sample.
 double standard_deviation(std::span<double const> sample);
 
-} // namespace lore
+}   // namespace lore

@@ -1,0 +1,114 @@
+// make_seeds DIRECTORY: the inputs that the fuzzers start from, as the program itself writes them, one directory a
+// target.
+
+#include "support/sample_files.h"
+
+#include <lore/archive/messages.h>
+#include <lore/campaign/choice.h>
+
+#include <cstdio>
+
+using namespace lore;
+using namespace lore::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Seeds {
+public:
+    explicit Seeds(fs::path directory) : directory_(std::move(directory)) {}
+    void write(char const* target, std::string const& name, std::span<std::byte const> content) const {
+        fs::create_directories(directory_ / target);
+        write_file_atomically(directory_ / target / name, content);
+    }
+    /// A payload whose first byte tells the target how to read the rest.
+    void write(char const* target, std::string const& name, std::size_t first, std::span<std::byte const> rest) const {
+        Bytes content{static_cast<std::byte>(first)};
+        content.insert(content.end(), rest.begin(), rest.end());
+        write(target, name, content);
+    }
+
+private:
+    fs::path directory_;
+};
+
+void files(Seeds const& seeds, fs::path const& samples) {
+    struct Sealed {
+        char const* target;
+        FileKind kind;
+        char const* file;
+    };
+    for (Sealed const& one : {Sealed{"lineage", FileKind::lineage, run_file::lineage},
+                              Sealed{"checkpoint", FileKind::checkpoint, run_file::checkpoint},
+                              Sealed{"genome", FileKind::genome, run_file::failed_genome},
+                              Sealed{"knowledge", FileKind::knowledge_base, sample_knowledge}}) {
+        seeds.write(one.target, "payload", read_container(samples / one.file, one.kind));
+        seeds.write("container", one.target, read_file(samples / one.file));
+    }
+    seeds.write("all_individuals", "file", read_file(samples / run_file::all_individuals));
+    // What the checkpoint keeps is the content of a frame; the target seals it, its generations come first.
+    Checkpoint const checkpoint =
+        unpack_checkpoint(read_container(samples / run_file::checkpoint, FileKind::checkpoint), "sample");
+    seeds.write("all_individuals", "frame", checkpoint.all_individuals.generations,
+                checkpoint.all_individuals.gathered);
+
+    struct Plain {
+        char const* target;
+        char const* file;
+    };
+    for (Plain const& one :
+         {Plain{"npy", sample_array}, Plain{"trace", sample_trace}, Plain{"trace", sample_packed_trace},
+          Plain{"progress", run_file::progress}, Plain{"manifest", run_file::manifest},
+          Plain{"config", run_file::config}, Plain{"arena", run_file::arena}})
+        seeds.write(one.target, one.file, read_file(samples / one.file));
+    fs::path const jobs = LORE_SOURCE_DIR "/jobs";
+    for (char const* name : {"source.toml", "target.toml"})
+        seeds.write("config", name, read_file(jobs / "tasks" / name));
+    for (char const* name : {"small.toml", "paper.toml"})
+        seeds.write("campaign", name, read_file(jobs / "campaigns" / name));
+}
+
+/// The first byte as in results_fuzz.cpp.
+void results(Seeds const& seeds, fs::path const& samples) {
+    fs::path const sample = LORE_SOURCE_DIR "/tests/long/browser/sample";
+    std::size_t which = 0;
+    for (char const* name : {"runs.csv", "curves.csv", "kbs.csv", "replay.csv", "values.csv"})
+        seeds.write("results", name, which++, read_file(sample / name));
+    std::string const choice = samples / "choice.json";
+    write_choice(choice, Choice{{{"kb1", 7, 3, 12345, 6}}, {{3, 12345, 6}, {4, 12346, 2}}, {5}});
+    seeds.write("results", "choice.json", which++, read_file(choice));
+    std::string_view const failure = R"({"attempts": 2, "how": "exit code 1", "log_tail": ["a line", "another"]})";
+    seeds.write("results", "failure.json", which++, std::as_bytes(std::span{failure.data(), failure.size()}));
+    seeds.write("results", "population.csv", which, read_file(sample / "population.csv"));
+}
+
+void messages(Seeds const& seeds, Population const& population) {
+    std::vector<Genome const*> genomes;
+    std::vector<Delivery> deliveries;
+    std::vector<Descriptors const*> pool;
+    for (Individual const& member : population.members) {
+        genomes.push_back(&member.birth->genome);
+        deliveries.push_back(
+            {static_cast<int>(deliveries.size()), PretendedEvaluator::pretend(member.birth->genome, sample_steps)});
+        pool.push_back(member.descriptors.get());
+    }
+    seeds.write("messages", "genomes", 0, pack_genomes(genomes));
+    seeds.write("messages", "deliveries", 1, pack_deliveries(deliveries));
+    seeds.write("messages", "rows", 2, pack_rows(1, static_cast<int>(pool.size()), pool));
+    seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
+}
+
+}   // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fputs("usage: make_seeds DIRECTORY\n", stderr);
+        return 2;
+    }
+    Seeds const seeds{argv[1]};
+    fs::path const samples = fs::path{argv[1]} / "samples";
+    EvolutionState const evolved = write_sample_files(samples);
+    files(seeds, samples);
+    results(seeds, samples);
+    messages(seeds, evolved.population);
+}

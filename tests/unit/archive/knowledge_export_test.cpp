@@ -1,0 +1,73 @@
+#include <lore/archive/knowledge_export.h>
+
+#include "support/scratch.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/archive/npy_file.h>
+#include <lore/core/error.h>
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+using namespace lore;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Two features of two steps; binary channels of feature 1, step 0: ball_right (bit 0) and carrying (bit 8).
+KnowledgeBase const two{{2, 1.83f},
+                        {},
+                        {{0, 0, 0x101, 0},
+                         {0.5f, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0.25f, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.125f},
+                         {3.5, 1},
+                         {7, 1},
+                         {2, 1}}};
+
+}   // namespace
+
+TEST(KnowledgeCsv, has_a_row_a_feature_with_the_channels_in_their_order) {
+    std::string const csv = knowledge_csv(two);
+    EXPECT_THAT(csv, HasSubstr("feature,value,reward_sum,count,range_right_0,range_left_0,"));
+    EXPECT_THAT(csv, HasSubstr(",right_wheel_1,collect_1\n"));
+    EXPECT_THAT(csv, HasSubstr("\n0,3.5,7,2,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,1,0,"));
+    EXPECT_THAT(csv, HasSubstr("\n1,1,1,1,0.25,0,0,1,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.125\n"));
+}
+
+TEST(ExportKnowledge, writes_arrays_that_read_back_as_the_windows) {
+    Scratch const scratch;
+    export_knowledge(scratch.file("kb"), two);
+    NpyArray const features = read_npy(scratch.file("kb/features.npy"));
+    EXPECT_THAT(features.shape, ElementsAre(2, 2, 15));
+    EXPECT_THAT(read_npy(scratch.file("kb/values.npy")).values, ElementsAre(3.5f, 1.0f));
+    EXPECT_THAT(read_npy(scratch.file("kb/reward_sums.npy")).values, ElementsAre(7.0f, 1.0f));
+    Trace const back = read_windows(scratch.file("kb/features.npy"), 2);
+    std::vector<Window> const windows = windows_of(back, 2);
+    ASSERT_EQ(windows.size(), 2u);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(squared_distance(windows[static_cast<std::size_t>(i)], two.window(i)), 0.0f);
+}
+
+TEST(ReadWindows, takes_windows_in_rows_too_and_refuses_other_shapes) {
+    Scratch const scratch;
+    std::string const path = scratch.file("w.npy");
+    std::vector<float> values(60, 0.0f);
+    write_npy(path, values, std::array<std::size_t, 2>{2, 30});
+    EXPECT_EQ(read_windows(path, 2).steps(), 4);
+    EXPECT_THROW(read_windows(path, 4), Error);
+    write_npy(path, values, std::array<std::size_t, 2>{4, 15});
+    EXPECT_THROW(read_windows(path, 2), Error);
+    EXPECT_EQ(read_windows(path, 1).steps(), 4);
+}
+
+TEST(ReadWindows, refuses_a_binary_channel_that_is_neither_0_nor_1) {
+    Scratch const scratch;
+    std::string const path = scratch.file("w.npy");
+    std::vector<float> values(30, 0.0f);
+    values[15 + 9] = 0.5f;
+    write_npy(path, values, std::array<std::size_t, 3>{1, 2, 15});
+    try {
+        read_windows(path, 2);
+        FAIL();
+    } catch (Error const& error) { EXPECT_THAT(error.what(), HasSubstr("window 0, step 1: bumper_right is 0.5")); }
+}

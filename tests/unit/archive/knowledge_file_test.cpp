@@ -1,0 +1,172 @@
+#include <lore/archive/knowledge_file.h>
+
+#include "support/scratch.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/archive/container.h>
+#include <lore/core/error.h>
+#include <lore/core/random.h>
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+using namespace lore;
+using ::testing::HasSubstr;
+
+namespace {
+
+KnowledgeBase some_base(int features, int window_length) {
+    Stream rng{1, Purpose::test, 0, static_cast<std::uint32_t>(features)};
+    KnowledgeArrays arrays;
+    for (int i = 0; i < features; ++i) {
+        for (int step = 0; step < window_length; ++step) {
+            arrays.bits.push_back(static_cast<std::uint16_t>(rng.below(window_bits_mask + 1)));
+            for (int channel = 0; channel < continuous_count; ++channel)
+                arrays.windows.push_back(static_cast<float>(rng.uniform()));
+        }
+        arrays.counts.push_back(1 + rng.below(9));
+        arrays.reward_sums.push_back(rng.below(30));
+        arrays.values.push_back(arrays.reward_sums.back() / arrays.counts.back());
+    }
+    Provenance provenance;
+    provenance.made_by = "lore-kb build runs/s1 \"quoted\" \xC3\xA9";
+    provenance.kind = "lineage";
+    provenance.index = "exact";
+    provenance.sources = {"runs/s1"};
+    provenance.derivation = {"top 3", "random"};
+    provenance.task = "collectball source";
+    provenance.individuals = 12;
+    provenance.windows = 1u << 30;
+    provenance.best_balls = 7;
+    return KnowledgeBase{{window_length, 1.83f}, provenance, std::move(arrays)};
+}
+
+template <class T>
+std::vector<T> copy_of(std::span<T const> items) {
+    return {items.begin(), items.end()};
+}
+
+void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
+    EXPECT_EQ(a.config(), b.config());
+    EXPECT_EQ(a.provenance(), b.provenance());
+    EXPECT_EQ(copy_of(a.parts().bits), copy_of(b.parts().bits));
+    EXPECT_EQ(copy_of(a.parts().windows), copy_of(b.parts().windows));
+    EXPECT_EQ(copy_of(a.values()), copy_of(b.values()));
+    EXPECT_EQ(copy_of(a.parts().reward_sums), copy_of(b.parts().reward_sums));
+    EXPECT_EQ(copy_of(a.parts().counts), copy_of(b.parts().counts));
+}
+
+/// The error of reading a file with this content, or "" if it is read.
+std::string refusal(Scratch const& scratch, Bytes const& file) {
+    std::string const path = scratch.file("some.lorekb");
+    std::ofstream{path, std::ios::binary}.write(reinterpret_cast<char const*>(file.data()),
+                                                static_cast<std::streamsize>(file.size()));
+    try {
+        read_knowledge_base(path);
+    } catch (Error const& error) { return error.what(); }
+    return "";
+}
+
+Bytes payload_of(Scratch const& scratch, KnowledgeBase const& base) {
+    std::string const path = scratch.file("good.lorekb");
+    write_knowledge_base(path, base);
+    return read_container(path, FileKind::knowledge_base);
+}
+
+/// The error of a file that is whole but whose payload was made by somebody else.
+std::string refusal_of_payload(Scratch const& scratch, Bytes const& payload) {
+    return refusal(scratch, seal(FileKind::knowledge_base, payload, Packing::plain));
+}
+
+}   // namespace
+
+TEST(KnowledgeFile, gives_back_what_was_written) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    for (int window_length : {1, 7, 20})
+        for (int features : {0, 1, 5, 100}) {
+            KnowledgeBase const base = some_base(features, window_length);
+            write_knowledge_base(path, base);
+            expect_equal(read_knowledge_base(path), base);
+        }
+}
+
+TEST(KnowledgeFile, aligns_its_arrays_to_cache_lines) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    write_knowledge_base(path, some_base(5, 7));
+    KnowledgeBase const base = read_knowledge_base(path);
+    for (void const* start :
+         {static_cast<void const*>(base.parts().windows.data()), static_cast<void const*>(base.parts().bits.data()),
+          static_cast<void const*>(base.values().data())})
+        EXPECT_EQ(std::bit_cast<std::uintptr_t>(start) % 64, 0u);
+}
+
+TEST(KnowledgeFile, outlives_the_file_it_was_mapped_from) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    KnowledgeBase const written = some_base(50, 20);
+    write_knowledge_base(path, written);
+    KnowledgeBase const base = read_knowledge_base(path);
+    write_knowledge_base(path, some_base(3, 20));   // replaced by renaming: the mapping still shows the former file
+    expect_equal(base, written);
+}
+
+TEST(KnowledgeFile, detects_truncation_at_every_length) {
+    Scratch const scratch;
+    write_knowledge_base(scratch.file("kb.lorekb"), some_base(2, 2));
+    Bytes const whole = read_file(scratch.file("kb.lorekb"));
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        EXPECT_NE(refusal(scratch, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length))), "")
+            << length;
+}
+
+TEST(KnowledgeFile, detects_every_changed_byte) {
+    Scratch const scratch;
+    write_knowledge_base(scratch.file("kb.lorekb"), some_base(2, 2));
+    Bytes whole = read_file(scratch.file("kb.lorekb"));
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        whole[at] ^= std::byte{0x10};
+        EXPECT_NE(refusal(scratch, whole), "") << at;
+        whole[at] ^= std::byte{0x10};
+    }
+    EXPECT_EQ(refusal(scratch, whole), "");
+}
+
+TEST(KnowledgeFile, refuses_numbers_outside_their_range_in_a_file_that_is_whole) {
+    Scratch const scratch;
+    Bytes const good = payload_of(scratch, some_base(3, 2));
+    auto const with = [&](std::size_t at, auto number) {
+        Bytes payload = good;
+        std::memcpy(payload.data() + at, &number, sizeof number);
+        return refusal_of_payload(scratch, payload);
+    };
+    // Three features of two steps: values at 64, sums at 128, counts at 192, windows at 256 (144 bytes), bits at 448.
+    EXPECT_THAT(with(64, std::numeric_limits<double>::quiet_NaN()), HasSubstr("not finite"));
+    EXPECT_THAT(with(128, std::numeric_limits<double>::infinity()), HasSubstr("not finite"));
+    EXPECT_THAT(with(192, std::uint32_t{0}), HasSubstr("nobody"));
+    EXPECT_THAT(with(256, std::numeric_limits<float>::quiet_NaN()), HasSubstr("0 .. 1"));
+    EXPECT_THAT(with(256 + 140, 1.5f), HasSubstr("0 .. 1"));
+    EXPECT_THAT(with(448, std::uint16_t{0x200}), HasSubstr("unknown channels"));
+    EXPECT_THAT(with(0, std::uint32_t{2}), HasSubstr("newer Lore"));
+    EXPECT_THAT(with(4, std::uint32_t{0}), HasSubstr("window length"));
+    EXPECT_THAT(with(4, std::uint32_t{3}), HasSubstr("do not fit"));
+    EXPECT_THAT(with(8, std::numeric_limits<float>::quiet_NaN()), HasSubstr("threshold"));
+    EXPECT_THAT(with(12, std::uint32_t{8}), HasSubstr("channels"));
+    EXPECT_THAT(with(24, std::uint64_t{40}), HasSubstr("do not fit"));
+    EXPECT_THAT(with(24, ~std::uint64_t{0}), HasSubstr("do not fit"));
+    EXPECT_THAT(with(32, ~std::uint64_t{0}), HasSubstr("do not fit"));
+    EXPECT_THAT(with(good.size() - 1, '['), HasSubstr("provenance"));
+    EXPECT_EQ(with(64, 3.5), "");
+}
+
+TEST(KnowledgeFile, refuses_a_container_of_another_kind_and_a_missing_file) {
+    Scratch const scratch;
+    EXPECT_THAT(refusal(scratch, seal(FileKind::lineage, payload_of(scratch, some_base(1, 1)))),
+                HasSubstr("not a knowledge base"));
+    EXPECT_THROW(read_knowledge_base(scratch.file("none.lorekb")), Error);
+}

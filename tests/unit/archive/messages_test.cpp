@@ -1,0 +1,93 @@
+#include <lore/archive/messages.h>
+
+#include "archive/random_population.h"
+
+#include <lore/core/error.h>
+#include <lore/network/mutation.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace lore;
+
+namespace {
+
+std::vector<Genome> mutated_genomes(int count) {
+    std::vector<Genome> genomes;
+    for (int i = 0; i < count; ++i) {
+        Stream rng{3, Purpose::test, 0, static_cast<std::uint32_t>(i)};
+        Genome genome = founder(rng);
+        for (int k = 0; k < i; ++k) mutate(genome, {}, {}, rng);
+        genomes.push_back(std::move(genome));
+    }
+    return genomes;
+}
+
+std::vector<Genome const*> pointers(std::vector<Genome> const& genomes) {
+    std::vector<Genome const*> all;
+    for (Genome const& genome : genomes) all.push_back(&genome);
+    return all;
+}
+
+std::vector<Delivery> deliveries_of(std::vector<Genome> const& genomes, int steps) {
+    std::vector<Delivery> deliveries;
+    for (Evaluation& evaluation : PretendedEvaluator{steps}.evaluate(pointers(genomes)))
+        deliveries.push_back({1000 - static_cast<int>(deliveries.size()), std::move(evaluation)});
+    return deliveries;
+}
+
+}   // namespace
+
+TEST(Messages, carry_genomes_and_evaluations_unchanged) {
+    for (int count : {0, 1, 2, 40}) {
+        auto const genomes = mutated_genomes(count);
+        EXPECT_EQ(unpack_genomes(pack_genomes(pointers(genomes))), genomes);
+        auto const deliveries = deliveries_of(genomes, 4000);
+        Bytes const bytes = pack_deliveries(deliveries);
+        EXPECT_EQ(unpack_deliveries(bytes), deliveries);
+        // The pretended bits change at every step: written out, they are no longer than in memory.
+        if (count > 0) { EXPECT_LT(bytes.size() / static_cast<std::size_t>(count), 9000u); }
+    }
+}
+
+TEST(Messages, carry_bits_that_repeat_in_little_space) {
+    Stream rng{1, Purpose::test};
+    for (int length : {0, 1, 2, 127, 128, 129, 4000}) {
+        Delivery delivery;
+        std::vector<std::uint16_t>& bits = delivery.evaluation.descriptors.bits;
+        while (static_cast<int>(bits.size()) < length)
+            bits.insert(bits.end(),
+                        std::min<std::size_t>(1 + rng.below(300), static_cast<std::size_t>(length) - bits.size()),
+                        static_cast<std::uint16_t>(rng.below(1u << 15)));
+        Bytes const bytes = pack_deliveries({&delivery, 1});
+        EXPECT_EQ(unpack_deliveries(bytes).at(0), delivery);
+        EXPECT_LT(bytes.size(), 400u);
+    }
+}
+
+TEST(Messages, carry_rows_of_distances) {
+    auto const genomes = mutated_genomes(12);
+    auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers(genomes));
+    std::vector<Descriptors const*> pool;
+    for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
+    DistanceMatrix expected{12}, here{12}, there{12};
+    measure_rows(DistanceKind::trajectory, pool, 3, 9, expected);
+    RowRequest const request = unpack_rows(pack_rows(3, 9, pool));
+    std::vector<Descriptors const*> carried;
+    for (Descriptors const& member : request.pool) carried.push_back(&member);
+    ASSERT_EQ(carried.size(), 9u);
+    measure_rows(DistanceKind::trajectory, carried, request.first, request.last, there);
+    unpack_distances(pack_distances(3, 9, there), 3, 9, here);
+    EXPECT_EQ(here, expected);
+}
+
+TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
+    auto const genomes = mutated_genomes(3);
+    Bytes const request = pack_genomes(pointers(genomes));
+    Bytes const result = pack_deliveries(deliveries_of(genomes, 100));
+    for (std::size_t length = 0; length < request.size(); ++length)
+        EXPECT_THROW(unpack_genomes(std::span{request}.first(length)), Error);
+    for (std::size_t length = 0; length < result.size(); ++length)
+        EXPECT_THROW(unpack_deliveries(std::span{result}.first(length)), Error);
+}

@@ -1,0 +1,100 @@
+#include <lore/campaign/chart.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace lore;
+
+namespace {
+
+CampaignPlan two_treatments() {
+    CampaignPlan plan;
+    plan.source.name = "source";
+    for (char const* name : {"none", "kb1"}) {
+        Treatment treatment;
+        treatment.name = name;
+        treatment.label = std::string{name} + " <&>";
+        plan.targets.push_back(treatment);
+        plan.report_order.push_back(name);
+    }
+    return plan;
+}
+
+int occurrences(std::string const& text, std::string const& part) {
+    int count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+}   // namespace
+
+TEST(Boxplots, draw_every_run_as_a_point_and_mark_what_differs) {
+    Results results;
+    for (int i = 0; i < 12; ++i) {
+        results.runs.push_back({"none", i, 1, i % 3, 0, 0, "", ""});
+        results.runs.push_back({"kb1", i, 1, 5 + i % 3, 0, 0, "", ""});
+    }
+    CampaignPlan const plan = two_treatments();
+    auto const comparisons = compare_treatments(plan, results);
+    ASSERT_LT(comparisons.at(0).p, 1e-3);
+    std::string const svg = draw_boxplots(plan, results, comparisons);
+    EXPECT_EQ(occurrences(svg, "<circle"), 24);
+    EXPECT_EQ(occurrences(svg, ">**</text>"), 1);
+    EXPECT_EQ(occurrences(svg, "none &lt;&amp;&gt;"), 1) << "labels are text, not markup";
+}
+
+TEST(Boxplots, stack_brackets_so_that_none_overlap) {
+    CampaignPlan plan;
+    Results results;
+    for (int t = 0; t < 4; ++t) {
+        Treatment treatment;
+        treatment.name = treatment.label = "t" + std::to_string(t);
+        plan.targets.push_back(treatment);
+        plan.report_order.push_back(treatment.name);
+        for (int i = 0; i < 10; ++i) results.runs.push_back({treatment.name, i, 1, 10 * t + i % 3, 0, 0, "", ""});
+    }
+    auto const comparisons = compare_treatments(plan, results);
+    ASSERT_EQ(comparisons.size(), 6u);   // all differ: neighbors share a level, the others need three more
+    std::string const svg = draw_boxplots(plan, results, comparisons);
+    EXPECT_EQ(occurrences(svg, ">**</text>"), 6);
+    std::set<std::string> marks;
+    for (std::size_t at = svg.find(">**</text>"); at != std::string::npos; at = svg.find(">**</text>", at + 1)) {
+        std::size_t const start = svg.rfind("<text", at);
+        EXPECT_TRUE(marks.insert(svg.substr(start, svg.find(" font-size", start) - start)).second)
+            << "two marks at one place";
+    }
+}
+
+TEST(Boxplots, mark_nothing_where_nothing_differs) {
+    Results results;
+    for (char const* name : {"none", "kb1"})
+        for (int i = 0; i < 5; ++i) results.runs.push_back({name, i, 1, 3, 0, 0, "", ""});
+    CampaignPlan const plan = two_treatments();
+    EXPECT_EQ(occurrences(draw_boxplots(plan, results, compare_treatments(plan, results)), "*</text>"), 0);
+}
+
+TEST(Curves, draw_a_line_and_a_band_for_each_treatment_with_runs) {
+    Results results;
+    for (int g = 0; g <= 100; g += 10) results.curves.push_back({"kb1", g, 3, 0.05 * g, 0.04 * g, 0.06 * g});
+    std::string const svg = draw_curves(two_treatments(), results);
+    EXPECT_EQ(occurrences(svg, "<polygon"), 1);
+    EXPECT_EQ(occurrences(svg, "(n = 3)"), 1);
+    EXPECT_EQ(occurrences(svg, "none"), occurrences(svg, "fill=\"none\""));
+}
+
+TEST(Curves, end_with_the_runs_on_the_target_task_however_long_source_runs_are) {
+    Results results;
+    for (int g = 0; g <= 1000; g += 10) results.curves.push_back({"source", g, 3, 0.005 * g, 0.004 * g, 0.006 * g});
+    EXPECT_EQ(occurrences(draw_curves(two_treatments(), results), ">1000</text>"), 1);
+    for (int g = 0; g <= 100; g += 10) results.curves.push_back({"kb1", g, 3, 0.05 * g, 0.04 * g, 0.06 * g});
+    std::string const svg = draw_curves(two_treatments(), results);
+    EXPECT_EQ(occurrences(svg, ">1000</text>"), 0);
+    EXPECT_EQ(occurrences(svg, ">100</text>"), 1);
+    EXPECT_EQ(occurrences(svg, "<polygon"), 2);
+}
+
+TEST(Curves, say_so_where_there_is_nothing_to_draw) {
+    EXPECT_EQ(occurrences(draw_curves(two_treatments(), Results{}), "no finished run yet"), 1);
+    EXPECT_EQ(occurrences(draw_boxplots(two_treatments(), Results{}, {}), "no finished run yet"), 1);
+}

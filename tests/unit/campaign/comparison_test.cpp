@@ -1,0 +1,72 @@
+#include <lore/campaign/comparison.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using namespace lore;
+
+namespace {
+
+CampaignPlan three_treatments() {
+    CampaignPlan plan;
+    plan.title = "three";
+    plan.source.name = "source";
+    plan.source.runs = 0;
+    for (char const* name : {"a", "b", "c"}) {
+        Treatment treatment;
+        treatment.name = treatment.label = name;
+        treatment.runs = 3;
+        plan.targets.push_back(treatment);
+        plan.report_order.push_back(name);
+    }
+    return plan;
+}
+
+Results results_with(std::vector<std::pair<std::string, std::vector<int>>> const& balls) {
+    Results results;
+    for (auto const& [treatment, values] : balls)
+        for (int const value : values) results.runs.push_back({treatment, 1, 1, value, 0, 0, "", ""});
+    return results;
+}
+
+}   // namespace
+
+TEST(Comparison, pairs_treatments_that_have_runs_in_the_order_of_the_report) {
+    auto const comparisons = compare_treatments(three_treatments(), results_with({{"a", {1, 2, 3}}, {"c", {4, 5, 6}}}));
+    ASSERT_EQ(comparisons.size(), 1u);
+    EXPECT_EQ(comparisons[0].a, "a");
+    EXPECT_EQ(comparisons[0].b, "c");
+    EXPECT_EQ(comparisons[0].u, 0);
+    EXPECT_NEAR(comparisons[0].p, 0.1, 1e-15);
+    EXPECT_EQ(comparisons[0].a12, 0);
+    EXPECT_TRUE(comparisons[0].exact);
+}
+
+TEST(Comparison, corrects_for_all_pairs) {
+    auto const comparisons =
+        compare_treatments(three_treatments(), results_with({{"a", {1, 2, 3}}, {"b", {4, 5, 6}}, {"c", {7, 8, 9}}}));
+    ASSERT_EQ(comparisons.size(), 3u);
+    for (Comparison const& c : comparisons) EXPECT_NEAR(c.p_holm, 0.3, 1e-12);
+}
+
+TEST(Comparison, writes_the_promised_columns) {
+    auto const comparisons = compare_treatments(three_treatments(), results_with({{"a", {1, 1}}, {"b", {1, 1}}}));
+    EXPECT_EQ(comparisons_csv(comparisons), "a,b,n_a,n_b,u,p,p_holm,a12\na,b,2,2,2,1,1,0.5\n");
+}
+
+TEST(Comparison, gives_the_papers_marks) {
+    EXPECT_EQ(significance_mark(0.0009), "**");
+    EXPECT_EQ(significance_mark(0.001), "*");
+    EXPECT_EQ(significance_mark(0.01), "");
+}
+
+TEST(Summary, says_how_complete_the_campaign_is) {
+    CampaignPlan const plan = three_treatments();
+    Results const results = results_with({{"a", {1, 2, 3}}, {"b", {4, 5}}});
+    auto const document = nlohmann::json::parse(summary_json(plan, results, compare_treatments(plan, results)));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_EQ(document["treatments"][1]["mean"], 2.0);
+    EXPECT_EQ(document["treatments"][2]["runs"], 2);
+    EXPECT_EQ(document["treatments"][3]["runs"], 0);
+    EXPECT_FALSE(document["treatments"][3].contains("mean"));
+}

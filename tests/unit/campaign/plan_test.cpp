@@ -1,0 +1,170 @@
+#include <lore/campaign/plan.h>
+
+#include <lore/campaign/choice.h>
+#include <lore/campaign/steps.h>
+#include <lore/core/error.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace lore;
+
+class Campaign : public test::CampaignTest {
+protected:
+    /// What read_campaign says of the small campaign with one piece of text exchanged.
+    std::string complaint(std::string const& from, std::string const& to) {
+        std::string text = test::small_campaign;
+        text.replace(text.find(from), from.size(), to);
+        write("campaign.toml", text);
+        try {
+            plan();
+        } catch (UsageError const& error) { return error.what(); }
+        return "";
+    }
+};
+
+TEST_F(Campaign, gives_treatments_the_common_values_and_their_own) {
+    CampaignPlan const campaign = plan();
+    EXPECT_EQ(campaign.source.runs, 4);
+    EXPECT_EQ(campaign.targets.at(0).runs, 3);
+    EXPECT_EQ(campaign.targets.at(1).overrides, std::vector<std::string>{"evolution.generations=20"});
+    EXPECT_EQ(campaign.report_order, (std::vector<std::string>{"none", "all", "kb1"}));
+    EXPECT_EQ(seed_of(campaign.source, 1), 1u);
+    EXPECT_EQ(seed_of(campaign.source, 4), 4u);
+}
+
+TEST_F(Campaign, reads_the_files_that_come_with_lore) {
+    CampaignPlan const paper = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/paper.toml");
+    EXPECT_EQ(paper.source.runs, 30);
+    EXPECT_EQ(paper.knowledge.size(), 6u);
+    EXPECT_EQ(paper.targets.size(), 7u);
+    EXPECT_EQ(paper.report_order.front(), "none");
+    // 30 source runs, the choice, 6 knowledge bases, one archive, 7 treatments of 30.
+    EXPECT_EQ(steps_of(paper).size(), 30u + 1 + 6 + 1 + 210);
+    CampaignPlan const small = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/small.toml");
+    EXPECT_EQ(small.report_order, paper.report_order);
+    CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/ties.toml");
+    EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90);
+    // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
+    CampaignDirectory const directory{"paper"};
+    struct Sharing {
+        char const* name;
+        int steps;
+    };
+    for (auto const& [name, steps] :
+         {Sharing{"beyond", 30 + 1 + 3 + 60}, Sharing{"saturation", 30 + 1 + 5}, Sharing{"windows", 30 + 1 + 1},
+          Sharing{"faster", 30 + 1 + 3}, Sharing{"longer", 30 + 1 + 1}}) {
+        CampaignPlan const sharing = read_campaign(std::string{LORE_SOURCE_DIR "/jobs/campaigns/"} + name + ".toml");
+        int shared = 0;
+        for (Step const& step : steps_of(sharing))
+            for (Step const& same : steps_of(paper))
+                if (step.name == same.name) {
+                    ++shared;
+                    EXPECT_EQ(command_of(sharing, directory, {}, step, nullptr),
+                              command_of(paper, directory, {}, same, nullptr));
+                }
+        EXPECT_EQ(shared, steps) << name;
+    }
+}
+
+TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
+    EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
+    EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, least_count, consensus is missing"),
+              std::string::npos);
+    EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
+    EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
+    EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls' or 'run'"),
+              std::string::npos);
+    EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
+    EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
+    EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
+    EXPECT_NE(complaint("runs = 4", "runs = 1").find("need as many source runs"), std::string::npos);
+    EXPECT_NE(complaint("balls = 2", "balls = 2\nrun = 3").find("excludes"), std::string::npos);
+    EXPECT_NE(complaint("order = [\"none\", ", "order = [").find("every treatment once"), std::string::npos);
+    EXPECT_NE(complaint("config = \"target.toml\"", "config = \"target.tml\"").find("target.tml"), std::string::npos);
+    EXPECT_NE(complaint("generations = 20", "generatons = 20").find("Did you mean 'generations'"), std::string::npos);
+    std::string const misspelt = complaint("runs = 4", "set = [\"evolution.popultion=3\"]");
+    EXPECT_NE(misspelt.find("campaign.toml, line 7: source.set ("), std::string::npos) << misspelt;
+    EXPECT_NE(misspelt.find("population"), std::string::npos) << misspelt;
+}
+
+TEST_F(Campaign, has_runs_read_the_windows_of_their_base) {
+    using Settings = std::vector<std::string>;
+    Settings const generations{"evolution.generations=20"},
+        fitted{"knowledge.window_length=10", "knowledge.match_threshold=1.294", "evolution.generations=20"};
+    auto const settings = [&](std::string_view treatment) { return plan().treatment(treatment).overrides; };
+    auto const complaint_with = [&](std::string const& keys, std::string const& knowledge, std::string const& set) {
+        return complaint("knowledge = \"kb1\"\n[[treatment]]",
+                         "knowledge = \"" + knowledge + "\"\n" + set +
+                             "[[knowledge]]\nname = \"short\"\nlineage_of = \"kb1\"\n" + keys + "[[treatment]]");
+    };
+    std::string const own = "window_length = 10\nmatch_threshold = 1.294\n";
+    EXPECT_EQ(complaint_with(own, "short", ""), "");
+    EXPECT_EQ(settings("kb1"), fitted);
+    EXPECT_EQ(settings("none"), generations);
+    EXPECT_EQ(settings("all"), generations) << "its base has the usual windows";
+    EXPECT_EQ(complaint_with(own + "[[knowledge]]\nname = \"drawn\"\nrandom_of = \"short\"\n", "drawn", ""), "");
+    EXPECT_EQ(settings("kb1"), fitted) << "drawn values change no windows";
+    EXPECT_EQ(complaint("runs = 4", "runs = 4\nset = [\"knowledge.match_threshold=1.5\"]"), "");
+    EXPECT_EQ(settings("kb1").at(1), "knowledge.match_threshold=1.5") << "bases are built as their source run says";
+
+    std::string const other = complaint_with(own, "short", "set = [\"knowledge.window_length=5\"]\n");
+    EXPECT_NE(other.find("windows of 5 steps and threshold 1.294, and 'short' has 10 and 1.294"), std::string::npos)
+        << other;
+    EXPECT_NE(complaint_with("options = [\"--threshold\", \"1.5\"]\n", "short", "").find("Write window_length"),
+              std::string::npos);
+}
+
+TEST_F(Campaign, orders_steps_after_those_that_they_wait_for) {
+    std::vector<Step> const steps = steps_of(plan());
+    for (auto step = steps.begin(); step != steps.end(); ++step)
+        for (std::string const& group : step->after)
+            EXPECT_TRUE(std::none_of(step, steps.end(), [&](Step const& later) { return later.group == group; }))
+                << step->name;
+}
+
+TEST_F(Campaign, writes_commands_that_a_shell_takes) {
+    CampaignPlan const campaign = plan();
+    Choice choice;
+    choice.chosen = {{"kb1", 6, 3, 3, 6}, {"kb2", 2, 1, 1, 2}};
+    auto command = [&](std::string const& step) {
+        return shell_text(command_of(campaign, CampaignDirectory{"c"}, Launcher{},
+                                     steps_named(steps_of(campaign), {step}).front(), &choice));
+    };
+    std::string const here = campaign.directory;
+    EXPECT_EQ(command("kb1/002"), "lore-evolve " + here +
+                                      "/target.toml --seed 2 --out c/runs/kb1/002 --resume --set "
+                                      "evolution.generations=20 --kb c/knowledge/kb1.lorekb");
+    EXPECT_EQ(
+        command("archive/kb1_all"),
+        "lore-evolve " + here +
+            "/source.toml --seed 3 --out c/runs/archive/kb1_all --resume --set evolution.generations=20 --archive all");
+    EXPECT_EQ(command("knowledge/kb1"), "lore-kb build c/runs/source/003 --out c/knowledge/kb1.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_all"),
+              "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
+    EXPECT_EQ(command("knowledge/kb1_top"),
+              "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
+    write("narrow.toml",
+          std::string{test::small_campaign}.insert(
+              test::small_campaign.find("[[treatment]]"),
+              "[[knowledge]]\nname = \"narrow\"\nlineage_of = \"kb1\"\nmatch_threshold = 1.5\nwindow_length = 10\n"));
+    CampaignPlan const narrow = read_campaign(scratch.file("narrow.toml"));
+    EXPECT_EQ(shell_text(command_of(narrow, CampaignDirectory{"c"}, Launcher{},
+                                    steps_named(steps_of(narrow), {"knowledge/narrow"}).front(), &choice)),
+              "lore-kb build c/runs/source/003 --window-length 10 --threshold 1.5 --out c/knowledge/narrow.lorekb");
+    write("shown.toml",
+          std::string{test::small_campaign}.replace(test::small_campaign.find("top = 10"), 8, "least_count = 5"));
+    CampaignPlan const shown = read_campaign(scratch.file("shown.toml"));
+    EXPECT_EQ(shell_text(command_of(shown, CampaignDirectory{"c"}, Launcher{},
+                                    steps_named(steps_of(shown), {"knowledge/kb1_top"}).front(), &choice)),
+              "lore-kb reduce c/knowledge/kb1.lorekb --min-count 5 --out c/knowledge/kb1_top.lorekb");
+    EXPECT_EQ(shell_text({"a b", "it's", ""}), "'a b' 'it'\\''s' ''");
+
+    Launcher four;
+    four.ranks = 4;
+    auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
+    EXPECT_EQ(shell_text({words.begin(), words.begin() + 6}), "mpirun -n 4 --bind-to none lore-evolve");
+}

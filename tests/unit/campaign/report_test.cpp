@@ -1,0 +1,143 @@
+#include <lore/campaign/report.h>
+
+#include "campaign_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace lore;
+
+class Report : public test::CampaignTest {
+protected:
+    std::string made(std::string const& name, std::string const& where = "c") const {
+        return read(scratch.file(where + "/" + name));
+    }
+    int rows(std::string const& name) const {
+        std::string const text = made(name);
+        return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;
+    }
+};
+
+TEST_F(Report, has_a_row_for_every_finished_run) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_TRUE(made("final.csv").starts_with("treatment,run,seed,balls\nsource,1,1,"));
+    EXPECT_EQ(rows("final.csv"), 4 + 9);
+    EXPECT_EQ(rows("curves.csv"), 4 * 21);
+    EXPECT_EQ(rows("pvalues.csv"), 3);
+    EXPECT_EQ(rows("kbs.csv"), 5);
+    EXPECT_TRUE(made("population.csv").starts_with("treatment,generation,runs,mean_balls,fronts,tied,"));
+    EXPECT_EQ(rows("population.csv"), 4 * 6) << "generations 0, 1, 2, 5, 10 and 20";
+    for (char const* name : {"report.html", "figures/figure3.svg", "figures/figure3.png", "figures/figure4.svg",
+                             "figures/figure4.png", "summary.json"})
+        EXPECT_FALSE(made(name).empty()) << name;
+}
+
+TEST_F(Report, is_self_contained_with_unique_ids) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::string const page = made("report.html");
+    for (char const* outside : {"src=\"", "@import", "url(", "href=\"http"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    std::set<std::string> ids;
+    for (std::size_t at = page.find(" id=\""); at != std::string::npos; at = page.find(" id=\"", at + 1))
+        EXPECT_TRUE(ids.insert(page.substr(at + 5, page.find('"', at + 5) - at - 5)).second) << page.substr(at, 40);
+    EXPECT_NE(page.find("13 of 13 runs finished"), std::string::npos);
+}
+
+TEST_F(Report, works_over_an_unfinished_campaign_and_says_so) {
+    RunnerOptions some = options();
+    some.only = {"source/001", "source/003", "none/002"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_EQ(rows("final.csv"), 3);
+    EXPECT_EQ(rows("pvalues.csv"), 0);
+    EXPECT_NE(made("report.html").find("3 of 13 runs finished"), std::string::npos);
+    EXPECT_NE(made("report.html").find("not complete"), std::string::npos);
+}
+
+TEST_F(Report, keeps_no_figure_of_a_former_one) {
+    RunnerOptions some = options();
+    some.only = {"source"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    std::filesystem::create_directories(scratch.file("c/figures"));
+    write("c/figures/figure5.svg", "of a campaign with other bases");
+    write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
+    EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3.svg")));
+}
+
+TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::filesystem::create_directories(scratch.file("kept"));
+    for (char const* name :
+         {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "replay.csv", "values.csv"})
+        std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
+    write_report(plan(), directory("kept"));
+    for (char const* name :
+         {"report.html", "pvalues.csv", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
+        EXPECT_EQ(made(name), made(name, "kept")) << name;
+}
+
+TEST_F(Report, can_be_written_elsewhere_so_that_campaigns_can_share_their_runs) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory(), directory("elsewhere"));
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/final.csv")));
+    write_report(plan(), directory());
+    for (char const* name : {"report.html", "final.csv", "kbs.csv", "figures/figure3.svg"})
+        EXPECT_EQ(made(name), made(name, "elsewhere")) << name;
+    write_report(plan(), directory("elsewhere"), directory("third"));
+    EXPECT_EQ(made("report.html"), made("report.html", "third")) << "from tables without runs";
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("third/final.csv")));
+    write("file", "");
+    EXPECT_THROW(write_report(plan(), directory(), directory("file")), Error) << "where no directory can be made";
+}
+
+TEST_F(Report, of_the_published_tables_is_the_published_one) {
+    auto const without_origin = [](std::string page) {   // the line that names the program that made it
+        std::size_t const line = page.find("<p>Runs: Lore");
+        return line == std::string::npos ? page : page.erase(line, page.find('\n', line) - line);
+    };
+    for (std::string const name : {"paper", "ties", "beyond", "saturation", "windows", "faster", "longer"}) {
+        std::filesystem::path const kept = std::filesystem::path{LORE_SOURCE_DIR "/docs/results"} / name;
+        write_report(read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/" + name + ".toml"), CampaignDirectory{kept},
+                     directory(name));
+        for (char const* file : {"pvalues.csv", "summary.json"})
+            EXPECT_EQ(made(file, name), read(kept / file)) << name << '/' << file;
+        std::string const page = made("report.html", name);
+        EXPECT_FALSE(page.empty());
+        if (name == "paper") { EXPECT_EQ(without_origin(page), without_origin(read(kept / "report.html"))); }
+        for (auto const& entry : std::filesystem::directory_iterator{kept}) {
+            std::string const file = entry.path().filename();
+            if (file.ends_with(".svg")) {
+                EXPECT_EQ(made("figures/" + file, name), read(entry.path())) << name << '/' << file;
+            }
+        }
+    }
+}
+
+TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::filesystem::create_directories(scratch.file("kept"));
+    for (char const* name : {"final.csv", "curves.csv"})
+        std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
+    write_report(plan(), directory("kept"));
+    for (char const* name : {"pvalues.csv", "figures/figure3.svg", "figures/figure4.svg"})
+        EXPECT_EQ(made(name), made(name, "kept")) << name;
+}
+
+TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {
+    EXPECT_THROW(write_report(plan(), directory("nothing")), Error);
+    std::filesystem::create_directories(scratch.file("kept"));
+    write("kept/curves.csv", "treatment,generation,runs,mean,low,high\nkb1,0,3,1,0.5\n");
+    write("kept/final.csv", "treatment,run,seed,balls\nkb1,1,1,three\n");
+    EXPECT_THROW(write_report(plan(), directory("kept")), Error);
+    write("kept/final.csv", "treatment,run,seed,balls\nkb1,1,1,3\n");
+    EXPECT_THROW(write_report(plan(), directory("kept")), Error);
+    write("kept/curves.csv", "treatment,generation,runs,mean,low,high\nkb1,0,3,1,0.5,1.5\n");
+    write("kept/final.csv", "treatment,run,seed,balls\nkb9,1,1,3\n");
+    EXPECT_THROW(write_report(plan(), directory("kept")), Error) << "a treatment that the campaign does not know";
+}

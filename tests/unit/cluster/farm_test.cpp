@@ -1,0 +1,168 @@
+#include <lore/cluster/farm.h>
+
+#include "archive/random_population.h"
+#include "share.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <deque>
+
+using namespace lore;
+
+namespace {
+
+Session* session = nullptr;
+
+constexpr int steps = 4000;   // so that messages have the size of real ones
+
+std::vector<Evaluation> pretend(std::span<Genome const* const> genomes) {
+    return PretendedEvaluator{steps}.evaluate(genomes);
+}
+
+/// Several under way at once, as in lanes.
+void pretend_stream(EvaluationFeed& feed) {
+    constexpr std::size_t lanes = 5;
+    std::deque<std::pair<int, Genome>> under_way;
+    while (true) {
+        while (under_way.size() < lanes) {
+            auto const item = feed.next();
+            if (!item) break;
+            under_way.emplace_back(item->ticket, *item->genome);
+        }
+        if (under_way.empty()) return;
+        feed.deliver(under_way.front().first, PretendedEvaluator::pretend(under_way.front().second, steps));
+        under_way.pop_front();
+        feed.pulse();
+    }
+}
+
+/// Rank 0 says what comes next; see main.
+void call_workers(char word) { session->world().broadcast({static_cast<std::byte>(word)}); }
+
+/// A Farm whose workers have been called to serve.
+struct Served {
+    Served() { call_workers('s'); }
+    Farm farm{session->world(), pretend_stream};
+};
+
+std::vector<Genome> founders(int count, std::uint32_t generation) {
+    std::vector<Genome> genomes;
+    for (int slot = 0; slot < count; ++slot)
+        genomes.push_back(founder(Stream{5, Purpose::founder, generation, static_cast<std::uint32_t>(slot)}));
+    return genomes;
+}
+
+}   // namespace
+
+TEST(Farm, gives_evaluations_in_the_order_of_the_request) {
+    Served served;
+    for (int count : {0, 1, 2, 3, 7, 16, 17, 64, 200, 403}) {
+        auto const genomes = founders(count, static_cast<std::uint32_t>(count));
+        std::vector<Genome const*> pointers;
+        for (Genome const& genome : genomes) pointers.push_back(&genome);
+        EXPECT_EQ(served.farm.evaluate(pointers), pretend(pointers)) << count;
+    }
+}
+
+TEST(ShareOfAWorker, is_even_in_half_sets_and_leaves_the_rest_to_rank_0) {
+    EXPECT_EQ(share_of_a_worker(200, 2, 32), 112) << "3 1/2 sets, and 2 3/4 for rank 0";
+    EXPECT_EQ(share_of_a_worker(200, 2, 16), 104);
+    EXPECT_EQ(share_of_a_worker(200, 4, 32), 64);
+    EXPECT_EQ(share_of_a_worker(3, 8, 32), 16);
+    EXPECT_EQ(share_of_a_worker(0, 2, 32), 0);
+    EXPECT_EQ(share_of_a_worker(5, 2, 1), 3) << "without lanes";
+}
+
+TEST(Farm, announces_each_evaluation_once_where_others_are_at_work) {
+    Served served;
+    auto const genomes = founders(200, 0);
+    std::vector<Genome const*> pointers;
+    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    struct : Audience {
+        std::vector<Evaluation> expected;
+        std::vector<int> announced;
+        void arrive(int index, Evaluation const& evaluation) override {
+            ++announced[static_cast<std::size_t>(index)];
+            EXPECT_EQ(evaluation, expected[static_cast<std::size_t>(index)]) << index;
+        }
+    } audience;
+    audience.expected = pretend(pointers);
+    audience.announced.assign(genomes.size(), 0);
+    served.farm.evaluate(pointers, &audience);
+    EXPECT_EQ(audience.announced, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
+}
+
+TEST(Farm, measures_every_distance_as_one_rank_does) {
+    Served served;
+    auto const genomes = founders(120, 0);
+    std::vector<Genome const*> pointers;
+    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    auto const evaluations = pretend(pointers);
+    std::vector<Descriptors const*> pool;
+    for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
+    for (DistanceKind kind :
+         {DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory, DistanceKind::entropy})
+        for (int known : {0, 1, 60, 119, 120}) {
+            DistanceMatrix expected{120}, matrix{120};
+            measure_rows(kind, pool, known, 120, expected);
+            served.farm.measure(kind, pool, known, matrix);
+            EXPECT_EQ(matrix, expected) << name(kind) << " " << known;
+        }
+}
+
+TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
+    EvolutionConfig config = small_evolution(6);
+    config.population = 150;   // so many that some distances are measured while others are under way
+    config.founders = 200;
+    auto const go_on = [](GenerationReport const&) { return true; };
+    PretendedEvaluator alone{steps};
+    auto const expected = evolve(config, 3, alone, {}, go_on).signature.value();
+    for (char const* delay : {"0", "3"}) {
+        ::setenv("LORE_TEST_DELAY", delay, 1);
+        call_workers(*delay);
+        Served served;
+        EXPECT_EQ(evolve(config, 3, served.farm, {}, go_on).signature.value(), expected) << delay;
+    }
+    ::unsetenv("LORE_TEST_DELAY");
+    call_workers('0');
+}
+
+TEST(Farm, accounts_for_the_time_of_every_rank) {
+    Served served;
+    auto const genomes = founders(64, 0);
+    std::vector<Genome const*> pointers;
+    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    served.farm.evaluate(pointers);
+    auto const times = served.farm.stop();
+    ASSERT_EQ(times.size(), static_cast<std::size_t>(session->size()));
+    for (RankTimes const& rank : times) EXPECT_GT(rank.evaluation, 0);
+}
+
+TEST(Communicator, gathers_texts_in_order_of_rank) {
+    call_workers('g');
+    auto const texts = session->world().gather("rank 0");
+    ASSERT_EQ(texts.size(), static_cast<std::size_t>(session->size()));
+    for (std::size_t rank = 0; rank < texts.size(); ++rank) EXPECT_EQ(texts[rank], "rank " + std::to_string(rank));
+}
+
+/// Rank 0 runs the tests; the others do what it calls.
+int main(int argc, char** argv) {
+    Session this_session{argc, argv};
+    session = &this_session;
+    if (session->rank() == 0) {
+        ::testing::InitGoogleTest(&argc, argv);
+        int const failed = RUN_ALL_TESTS();
+        call_workers('e');
+        return failed;
+    }
+    while (true) {
+        switch (std::to_integer<char>(session->world().broadcast({}).at(0))) {
+        case 's': serve(session->world(), pretend_stream); break;
+        case 'g': session->world().gather("rank " + std::to_string(session->rank())); break;
+        case '0': ::unsetenv("LORE_TEST_DELAY"); break;
+        case '3': ::setenv("LORE_TEST_DELAY", "3", 1); break;
+        default: return 0;
+        }
+    }
+}

@@ -1,0 +1,68 @@
+#include <lore/episode/replay.h>
+
+#include <lore/core/random.h>
+
+#include <gtest/gtest.h>
+
+namespace lore {
+namespace {
+
+std::vector<StepRecord> random_journey(Arena const& arena, std::uint32_t slot) {
+    Stream rng{21, Purpose::test, 0, slot};
+    std::vector<Effectors> actions;
+    Effectors action{};
+    for (int step = 0; step < 2000; ++step) {
+        if (step % 25 == 0)
+            action = {static_cast<float>(rng.uniform(0.3, 1)), static_cast<float>(rng.uniform(0.3, 1)),
+                      static_cast<float>(rng.uniform(0.4, 1))};
+        actions.push_back(action);
+    }
+    return drive(arena, actions);
+}
+
+TEST(RecordSteps, says_what_the_recorded_episode_says) {
+    Arena const arena = load_arena("collectball", "source");
+    Network const network = compile(founder(Stream{11, Purpose::test, 0, 3}));
+    std::vector<StepRecord> const rows = record_steps(arena, network, {});
+    Trace const trace = record_episode(arena, network, {});
+    ASSERT_EQ(rows.size(), static_cast<std::size_t>(trace.steps()));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_EQ(rows[i].step, static_cast<int>(i));
+        ASSERT_EQ(rows[i].pose, trace.poses[i]);
+        ASSERT_EQ(trace_bits(rows[i].sensors, rows[i].effectors), trace.bits[i]);
+        ASSERT_TRUE(i == 0 || rows[i - 1].next == rows[i].pose);
+    }
+    EXPECT_EQ(rows.back().collected, trace.final_world.collected);
+}
+
+TEST(Drive, repeats_an_episode_from_its_actions) {
+    Arena const arena = load_arena("collectball", "source");
+    std::vector<StepRecord> const rows = record_steps(arena, compile(founder(Stream{11, Purpose::test, 0, 5})), {});
+    std::vector<Effectors> actions;
+    for (StepRecord const& row : rows) actions.push_back(row.effectors);
+    EXPECT_EQ(drive(arena, actions), rows);
+}
+
+TEST(Follow, leaves_a_record_of_its_own_simulation_as_it_is) {
+    for (char const* task : {"source", "target"}) {
+        Arena const arena = load_arena("collectball", task);
+        for (std::uint32_t slot = 0; slot < 5; ++slot) {
+            std::vector<StepRecord> const rows = random_journey(arena, slot);
+            EXPECT_EQ(follow(arena, rows), rows) << task << slot;
+        }
+    }
+}
+
+TEST(Follow, takes_each_row_from_its_recorded_state) {
+    Arena const arena = load_arena("collectball", "source");
+    std::vector<StepRecord> rows = random_journey(arena, 1);
+    rows[10].pose = {97.5f, 60.0f, 1.0f};   // beside ball 4
+    rows[10].effectors = {0.5f, 0.5f, 1.0f};
+    std::vector<StepRecord> const followed = follow(arena, rows);
+    EXPECT_TRUE(followed[10].carrying);
+    EXPECT_EQ(followed[10].balls, 255 & ~16);
+    EXPECT_EQ(followed[11], rows[11]) << "the row after it starts from the record again";
+}
+
+}   // namespace
+}   // namespace lore

@@ -1,0 +1,62 @@
+#include <lore/evolution/summary.h>
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+namespace {
+
+Individual member(int balls, double diversity, double shaping, int edges, int hidden) {
+    auto birth = std::make_shared<Birth>();
+    birth->balls = balls;
+    birth->shaping = shaping;
+    birth->genome.edges.resize(static_cast<std::size_t>(edges));
+    birth->genome.biases.resize(static_cast<std::size_t>(effector_count + hidden));
+    Individual individual;
+    individual.birth = std::move(birth);
+    auto descriptors = std::make_shared<Descriptors>();
+    descriptors->bits.resize(4000);
+    individual.descriptors = std::move(descriptors);
+    individual.diversity = diversity;
+    individual.objectives = {{static_cast<double>(balls), diversity, shaping}, 3};
+    return individual;
+}
+
+}   // namespace
+
+TEST(Summarize, gives_the_figures_of_a_hand_worked_generation) {
+    EvolutionState state;
+    state.population.members = {member(2, 0.5, 3.0, 36, 0), member(2, 0.5, 3.0, 40, 2), member(0, 0.25, 3.0, 38, 0),
+                                member(4, 0.75, 1.5, 30, 1)};
+    std::vector<Individual> const born{member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0)};
+    GenerationReport report;
+    report.generation = 17;
+    report.distance = DistanceKind::entropy;
+    report.fronts = 5;
+    report.born = born;
+    report.state = &state;
+    GenerationSummary const summary = summarize(report);
+    EXPECT_EQ(summary.generation, 17);
+    EXPECT_EQ(summary.distance, DistanceKind::entropy);
+    EXPECT_EQ(summary.fronts, 5);
+    EXPECT_EQ(summary.best_balls, 4);
+    EXPECT_EQ(summary.mean_balls, 2.0);
+    EXPECT_EQ(summary.mean_diversity, 0.5);
+    EXPECT_EQ(summary.best_shaping, 3.0);
+    EXPECT_EQ(summary.mean_connections, 36.0);
+    EXPECT_EQ(summary.mean_hidden, 0.75);
+    EXPECT_EQ(summary.tied, 2);
+    EXPECT_EQ(summary.shaping_at_max, 0.75);
+    EXPECT_EQ(summary.evaluations, 3);
+    EXPECT_EQ(summary.steps, 12000);
+}
+
+TEST(Summarize, has_no_share_at_the_best_shaping_where_nobody_matched_a_feature) {
+    EvolutionState state;
+    state.population.members = {member(0, 0, no_feature_value, 36, 0), member(0, 0, no_feature_value, 36, 0)};
+    GenerationReport report;
+    report.state = &state;
+    EXPECT_EQ(summarize(report).best_shaping, no_feature_value);
+    EXPECT_EQ(summarize(report).shaping_at_max, 0.0);
+    EXPECT_EQ(summarize(report).tied, 2);
+}

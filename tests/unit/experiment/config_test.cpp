@@ -1,0 +1,148 @@
+#include <lore/experiment/config.h>
+
+#include "support/scratch.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+#include <lore/core/random.h>
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+namespace {
+
+ExperimentConfig parse(std::string const& text, std::vector<std::string> const& overrides = {}) {
+    return parse_config(text, "a.toml", "jobs", overrides);
+}
+
+std::string complaint(std::string const& text, std::vector<std::string> const& overrides = {}) {
+    try {
+        parse(text, overrides);
+    } catch (UsageError const& error) { return error.what(); }
+    return "";
+}
+
+}   // namespace
+
+TEST(Config, of_an_empty_file_is_the_paper_s) {
+    ExperimentConfig const config = parse("");
+    EXPECT_EQ(config.episode.steps, 4000);
+    EXPECT_EQ(config.evolution.population, 200);
+    EXPECT_EQ(config.evolution.founders, 400);
+    EXPECT_EQ(config.evolution.generations, 4000);
+    EXPECT_EQ(config.knowledge.window_length, 20);
+    EXPECT_EQ(config.knowledge.match_threshold, 1.83f);
+    EXPECT_TRUE(differing_settings(config, ExperimentConfig{}).empty());
+}
+
+TEST(Config, comes_back_from_its_own_text_whatever_its_values) {
+    for (std::uint32_t slot = 0; slot < 200; ++slot) {
+        Stream rng{1, Purpose::test, 0, slot};
+        ExperimentConfig config;
+        config.name = slot % 3 == 0 ? "with \"quotes\" \\ and a tab\t" : "plain";
+        config.arena = slot % 2 == 0 ? "collectball" : "/some/where.toml";
+        config.evolution.population = 2 * static_cast<int>(1 + rng.below(100));
+        config.evolution.founders = config.evolution.population + static_cast<int>(rng.below(100));
+        config.evolution.ties = static_cast<TieRule>(rng.below(3));
+        config.evolution.use_diversity = rng.coin();
+        config.evolution.mutation.weight_probability = rng.uniform();
+        config.evolution.mutation.eta = (1 << rng.below(6)) - 1;
+        config.evolution.diversity.distances = {static_cast<DistanceKind>(rng.below(4)),
+                                                static_cast<DistanceKind>(rng.below(4))};
+        config.knowledge.match_threshold = static_cast<float>(rng.uniform(0.1, 10));
+        config.checkpoint_minutes = rng.uniform() * 100;
+        ExperimentConfig const back = parse(to_toml(config));
+        EXPECT_TRUE(differing_settings(back, config).empty()) << differing_settings(back, config)[0];
+        EXPECT_EQ(back.evolution.mutation.weight_probability, config.evolution.mutation.weight_probability);
+        EXPECT_EQ(back.knowledge.match_threshold, config.knowledge.match_threshold);
+        EXPECT_EQ(back.name, config.name);
+        EXPECT_EQ(to_toml(back), to_toml(config));
+    }
+}
+
+TEST(Config, takes_overrides_with_and_without_quotes_and_brackets) {
+    ExperimentConfig const config =
+        parse("[evolution]\ngenerations = 7\n", {"evolution.generations=9", "evolution.ties=older", "task='target'",
+                                                 "diversity.distances=hamming,entropy", "name=a b"});
+    EXPECT_EQ(config.evolution.generations, 9);
+    EXPECT_EQ(config.evolution.ties, TieRule::older);
+    EXPECT_EQ(config.task, "target");
+    EXPECT_EQ(config.name, "a b");
+    EXPECT_EQ(config.evolution.diversity.distances, (std::vector{DistanceKind::hamming, DistanceKind::entropy}));
+    EXPECT_EQ(parse("", {"diversity.distances=[\"adhoc\"]"}).evolution.diversity.distances,
+              std::vector{DistanceKind::adhoc});
+}
+
+TEST(Config, names_the_line_and_the_nearest_key_of_a_mistyped_one) {
+    EXPECT_EQ(complaint("[evolution]\n\ngeneratoins = 5\n"),
+              "a.toml, line 3: evolution.generatoins (unknown key). Did you mean 'evolution.generations'?");
+    EXPECT_EQ(complaint("generations = 5\n"),
+              "a.toml, line 1: generations (unknown key). Did you mean 'evolution.generations'?");
+    EXPECT_EQ(complaint("[evolutoin]\npopulation = 4\n"),
+              "a.toml, line 1: evolutoin (unknown key). Did you mean 'evolution'?");
+    EXPECT_EQ(complaint("", {"evolution.generation=5"}),
+              "--set evolution.generation=5 (unknown key). Did you mean 'evolution.generations'?");
+    EXPECT_EQ(complaint("", {"generations=5"}),
+              "--set generations=5 (unknown key). Did you mean 'evolution.generations'?");
+}
+
+TEST(Config, refuses_values_of_another_type_or_out_of_range) {
+    EXPECT_EQ(complaint("[evolution]\npopulation = 1\n"),
+              "a.toml, line 2: evolution.population (1 is outside 2 .. 100000).");
+    EXPECT_EQ(complaint("[evolution]\npopulation = \"many\"\n"),
+              "a.toml, line 2: evolution.population (a whole number is expected).");
+    EXPECT_EQ(complaint("[mutation]\nweight_probability = 1.5\n"),
+              "a.toml, line 2: mutation.weight_probability (1.5 is outside 0 .. 1).");
+    EXPECT_EQ(complaint("[mutation]\nweight_probability = nan\n"),
+              "a.toml, line 2: mutation.weight_probability (the value is not finite).");
+    for (char const* const bad :
+         {"[evolution]\nties = \"none\"\n", "[diversity]\ndistances = []\n", "[diversity]\ndistances = [\"cosine\"]\n",
+          "evolution = 3\n", "[evolution]\nfounders = 100\n", "[mutation]\neta = 14\n",
+          "[knowledge]\nwindow_length = 5000\n", "[knowledge]\nmatch_threshold = 0\n", "[episode]\nsteps = 0\n",
+          "name = \n", "[evolution\n", "[evolution]\ngenerations = 99999999999999999999\n"})
+        EXPECT_NE(complaint(bad), "") << bad;
+    for (char const* const bad :
+         {"evolution.generations", "=5", "evolution.generations=", "evolution.generations=5\nname='x'"})
+        EXPECT_NE(complaint("", {bad}), "") << bad;
+}
+
+TEST(Config, says_where_a_value_came_from_that_does_not_go_with_the_others) {
+    EXPECT_EQ(complaint("", {"evolution.founders=7"}), "a.toml with --set evolution.founders=7: evolution.founders (7 "
+                                                       "is less than the population of 200). Take at least as many.");
+}
+
+TEST(Config, looks_for_an_arena_file_beside_itself_and_leaves_names_alone) {
+    EXPECT_EQ(parse("arena = \"arenas/a.toml\"").arena, "jobs/arenas/a.toml");
+    EXPECT_EQ(parse("arena = \"/arenas/a.toml\"").arena, "/arenas/a.toml");
+    EXPECT_EQ(parse("arena = \"collectball\"").arena, "collectball");
+}
+
+TEST(Config, that_cannot_be_read_is_an_error_of_usage) {
+    Scratch const scratch;
+    EXPECT_THROW(read_config(scratch.file("missing.toml")), UsageError);
+    EXPECT_THROW(read_config(scratch.path()), UsageError);
+}
+
+TEST(Config, files_of_the_project_are_the_paper_s_runs) {
+    for (char const* const task : {"source", "target"}) {
+        ExperimentConfig const config = read_config(std::string{LORE_SOURCE_DIR} + "/jobs/tasks/" + task + ".toml");
+        EXPECT_EQ(config.task, task);
+        ExperimentConfig expected;
+        expected.name = expected.task = task;
+        expected.arena = config.arena;
+        EXPECT_TRUE(differing_settings(config, expected).empty());
+        EXPECT_EQ(load_arena(config.arena, config.task).task.name, task);
+    }
+}
+
+TEST(Config, survives_every_cut_and_many_changes_of_its_text) {
+    std::string const text = to_toml({});
+    for (std::size_t length = 0; length < text.size(); ++length) complaint(text.substr(0, length));
+    for (std::size_t at = 0; at < text.size(); at += 3)
+        for (char const c : {'\0', '"', '\xff', '[', '\n', '='}) {
+            std::string changed = text;
+            changed[at] = c;
+            complaint(changed);
+        }
+}

@@ -1,0 +1,107 @@
+#include <lore/experiment/knowledge_building.h>
+
+#include "support/scratch.h"
+#include "support/small_run.h"
+
+#include <lore/core/error.h>
+#include <lore/evolution/lineage.h>
+#include <lore/knowledge/builder.h>
+
+#include <gmock/gmock.h>
+
+using namespace lore;
+
+namespace {
+
+void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (int i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a.value(i), b.value(i));
+        EXPECT_EQ(a.count(i), b.count(i));
+        EXPECT_EQ(squared_distance(a.window(i), b.window(i)), 0.0f);
+    }
+}
+
+BuildingObserver const nobody = [](std::int64_t, std::int64_t) {};
+
+}   // namespace
+
+TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_one) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory const run = open_run(scratch.path());
+    auto const best = run.individual("best");
+    KnowledgeConfig const config = run.config.knowledge;
+    KnowledgeBuilder plain{config, make_scan_index(config)};
+    for (Birth const* ancestor : lineage_of(*best)) {
+        Trace const trace = record_episode(run.arena, compile(ancestor->genome), run.config.episode);
+        plain.add_individual(windows_of(trace, config.window_length), ancestor->balls);
+    }
+    std::int64_t last = 0;
+    Provenance provenance;
+    provenance.made_by = "a test";
+    KnowledgeBase const base = knowledge_of_lineage(run, *best, config, IndexKind::exact, provenance,
+                                                    [&](std::int64_t done, std::int64_t) { last = done; });
+    expect_equal(base, std::move(plain).finish({}));
+    EXPECT_EQ(last, static_cast<std::int64_t>(lineage_of(*best).size()));
+    EXPECT_EQ(base.provenance().kind, "lineage");
+    EXPECT_EQ(base.provenance().made_by, "a test");
+    EXPECT_EQ(base.provenance().index, "exact");
+    EXPECT_EQ(base.provenance().task, "collectball source");
+    EXPECT_EQ(base.provenance().sources, std::vector<std::string>{run.path});
+    EXPECT_EQ(base.provenance().individuals, lineage_of(*best).size());
+}
+
+TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_of_birth) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory const run = open_run(scratch.path());
+    KnowledgeConfig const config = run.config.knowledge;
+    EXPECT_EQ(archived_individuals(run), 16u + 6 * 8);
+    for (int const every : {1, 5}) {
+        KnowledgeBuilder plain{config, make_scan_index(config)};
+        int number = 0;
+        for_each_individual(
+            run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
+                if (number++ % every != 0) return;
+                Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
+                plain.add_individual(windows_of(trace, config.window_length), individual.balls);
+            });
+        EXPECT_EQ(plain.individuals(), every == 1 ? 64u : 13u);
+        expect_equal(knowledge_of_all(run, every, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
+    }
+}
+
+TEST(KnowledgeOfAll, says_what_is_missing_where_the_run_did_not_keep_everybody) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    std::filesystem::remove(scratch.file(run_file::all_individuals));
+    RunDirectory const run = open_run(scratch.path());
+    EXPECT_THROW(knowledge_of_all(run, 1, {}, IndexKind::exact, {}, nobody), Error);
+}
+
+TEST(KnowledgeOfLineage, refuses_an_individual_whose_evaluation_does_not_repeat) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory const run = open_run(scratch.path());
+    Birth changed;
+    changed.id = {3, 4};
+    changed.genome = run.individual("best")->genome;
+    changed.balls = 5;
+    try {
+        knowledge_of_lineage(run, changed, {}, IndexKind::exact, {}, nobody);
+        FAIL();
+    } catch (Error const& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("individual 3.4"));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("does not repeat"));
+    }
+}
+
+TEST(KnowledgeOfLineage, stops_cleanly_when_its_observer_throws) {
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory const run = open_run(scratch.path());
+    EXPECT_THROW(knowledge_of_all(run, 1, {}, IndexKind::exact, {},
+                                  [](std::int64_t, std::int64_t) { throw std::runtime_error("enough"); }),
+                 std::runtime_error);
+}

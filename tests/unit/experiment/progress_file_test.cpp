@@ -1,0 +1,81 @@
+#include <lore/experiment/progress_file.h>
+
+#include "support/scratch.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+using namespace lore;
+
+namespace {
+
+ProgressRow row_at(int generation) {
+    ProgressRow row;
+    row.generation = generation;
+    row.best_balls = generation / 3;
+    row.mean_balls = generation / 7.0;
+    row.distance = static_cast<DistanceKind>(generation % 4);
+    row.mean_diversity = 1.0 / (generation + 1);
+    row.evaluations = static_cast<std::uint64_t>(generation) * 200;
+    row.steps = row.evaluations * 4000;
+    row.seconds = 0.125 * generation;
+    return row;
+}
+
+}   // namespace
+
+TEST(ProgressFile, has_the_columns_that_scripts_rely_on) {
+    EXPECT_EQ(progress_header(), "generation,best_balls,mean_balls,distance,mean_diversity,best_shaping,mean_"
+                                 "connections,mean_hidden,fronts,tied,"
+                                 "shaping_at_max,evaluations,steps,seconds");
+    EXPECT_EQ(text(row_at(2)), "2,0,0.2857142857142857,trajectory,0.3333333333333333,-1,0,0,0,0,0,400,1600000,0.250");
+}
+
+TEST(ProgressFile, gives_back_its_rows_and_leaves_out_a_half_written_last_one) {
+    Scratch const scratch;
+    std::vector<ProgressRow> expected;
+    {
+        ProgressWriter writer{scratch.file("p.csv"), 0};
+        for (int generation = 0; generation < 20; ++generation) {
+            expected.push_back(row_at(generation));
+            writer.add(expected.back());
+        }
+        EXPECT_EQ(writer.sync(), std::filesystem::file_size(scratch.file("p.csv")));
+    }
+    EXPECT_EQ(read_progress(scratch.file("p.csv")), expected);
+    std::filesystem::resize_file(scratch.file("p.csv"), std::filesystem::file_size(scratch.file("p.csv")) - 3);
+    expected.pop_back();
+    EXPECT_EQ(read_progress(scratch.file("p.csv")), expected);
+}
+
+TEST(ProgressFile, is_cut_back_so_that_no_row_appears_twice) {
+    Scratch const scratch;
+    std::uint64_t known = 0;
+    {
+        ProgressWriter writer{scratch.file("p.csv"), 0};
+        writer.add(row_at(0));
+        known = writer.sync();
+        writer.add(row_at(1));
+        writer.add(row_at(2));
+    }
+    ProgressWriter writer{scratch.file("p.csv"), known};
+    writer.add(row_at(1));
+    EXPECT_EQ(read_progress(scratch.file("p.csv")), (std::vector{row_at(0), row_at(1)}));
+    EXPECT_THROW(ProgressWriter(scratch.file("p.csv"), 100000), Error);
+    EXPECT_THROW(ProgressWriter(scratch.file("gone/p.csv"), 0), Error);
+}
+
+TEST(ProgressFile, that_is_damaged_is_refused) {
+    Scratch const scratch;
+    std::string const header = progress_header() + "\n";
+    for (std::string const& bad : {std::string{}, std::string{"a,b\n"}, header + "x\n", header + text(row_at(1)) + "\n",
+                                   header + text(row_at(0)) + ",1\n", header + "0,0,0,cosine,0,0,0,0,0,0,0,0,0,0\n",
+                                   header + "0,0,nan,adhoc,0,0,0,0,0,0,0,0,0,0\n"}) {
+        write_file_atomically(scratch.file("p.csv"), std::string_view{bad});
+        EXPECT_THROW(read_progress(scratch.file("p.csv")), Error) << bad;
+    }
+}

@@ -1,0 +1,59 @@
+#include <lore/figure/svg.h>
+
+#include <lore/core/error.h>
+
+#include <gtest/gtest.h>
+
+namespace lore {
+namespace {
+
+bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+/// Width and height in a PNG's first chunk.
+std::pair<int, int> png_size(std::string const& png) {
+    auto const number = [&](std::size_t at) {
+        int value = 0;
+        for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(png.at(i));
+        return value;
+    };
+    return {number(16), number(20)};
+}
+
+TEST(SvgDocument, writes_its_shapes_in_order) {
+    SvgDocument svg{100, 50, "a picture"};
+    svg.line({0, 0}, {10, 10.126}, {.stroke = "#000000", .width = 0.5, .dashes = "4 3"});
+    svg.circle({20, 20}, 5, {.fill = "red"});
+    std::string const text = std::move(svg).finish();
+    EXPECT_TRUE(contains(text, "width=\"100\" height=\"50\""));
+    std::size_t const line = text.find("<line x1=\"0\" y1=\"0\" x2=\"10\" y2=\"10.13\" fill=\"none\" "
+                                       "stroke=\"#000000\" stroke-width=\"0.5\" stroke-dasharray=\"4 3\"/>");
+    std::size_t const circle = text.find("<circle cx=\"20\" cy=\"20\" r=\"5\" fill=\"red\"/>");
+    ASSERT_NE(line, std::string::npos) << text;
+    ASSERT_NE(circle, std::string::npos) << text;
+    EXPECT_LT(line, circle);
+}
+
+TEST(SvgDocument, escapes_text) {
+    SvgDocument svg{10, 10, "a < b & \"c\""};
+    svg.text({0, 0}, "<script>\x01\xff caf\xc3\xa9");
+    std::string const text = std::move(svg).finish();
+    EXPECT_TRUE(contains(text, "<title>a &lt; b &amp; &quot;c&quot;</title>"));
+    EXPECT_TRUE(contains(text, "&lt;script&gt;?? caf\xc3\xa9</text>")) << text;
+}
+
+TEST(RenderPng, gives_a_picture_of_the_scaled_size) {
+    SvgDocument svg{100, 50, "\xed\xa0\x80 \xf0\x9f\xa4\x96"};   // a surrogate, and a robot
+    svg.rect({0, 0}, 100, 50, {.fill = "#ff0000"});
+    std::string const png = render_png(std::move(svg).finish(), 2.0);
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_EQ(png_size(png), (std::pair{200, 100}));
+}
+
+TEST(RenderPng, refuses_what_is_no_svg) {
+    EXPECT_THROW(render_png("no svg"), Error);
+    EXPECT_THROW(render_png(""), Error);
+    EXPECT_THROW(render_png("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"100\"/>", 1e9), Error);
+}
+
+}   // namespace
+}   // namespace lore

@@ -1,0 +1,96 @@
+#include "knowledge/traces.h"
+
+#include <lore/knowledge/builder.h>
+#include <lore/knowledge/derive.h>
+#include <lore/knowledge/shaping.h>
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+using namespace lore;
+using lore::test::trace_of;
+
+namespace {
+
+/// One-step features with bit patterns far from each other, and the values given.
+KnowledgeBase base_of(std::initializer_list<test::Step> features, std::vector<double> values) {
+    Trace const trace = trace_of(features);
+    std::vector<std::uint32_t> const counts(values.size(), 1);
+    return KnowledgeBase{{1, 1.83f}, {}, {trace.bits, trace.values, values, values, counts}};
+}
+
+}   // namespace
+
+TEST(Shaper, gives_the_largest_value_among_the_matched_features) {
+    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {2.0, 5.0, 7.0})};
+    Trace const trace = trace_of({{0x000, 0.5f}, {0x01E, 0.5f}, {0x001, 0.5f}});
+    EXPECT_EQ(shaper.shaping(windows_of(trace, 1)), 5.0);
+    EXPECT_EQ(shaper.highest_value(), 7.0);
+}
+
+TEST(Shaper, gives_minus_one_where_no_window_matches) {
+    Shaper const shaper{base_of({{0x000, 0.5f}}, {2.0})};
+    Trace const trace = trace_of({{0x0FF, 0.5f}});
+    EXPECT_EQ(shaper.shaping(windows_of(trace, 1)), no_feature_value);
+    EXPECT_EQ(shaper.shaping({}), no_feature_value);
+    EXPECT_EQ(Shaper{base_of({}, {})}.shaping(windows_of(trace, 1)), no_feature_value);
+}
+
+TEST(Shaper, counts_the_nearest_feature_of_a_window_though_another_within_the_threshold_is_worth_more) {
+    // The query is at squared distance 1 from the first and 2 from the second feature, both within 1.83.
+    Shaper const shaper{base_of({{0b001, 0.5f}, {0b110, 0.5f}}, {1.0, 9.0})};
+    Trace const trace = trace_of({{0b000, 0.5f}});
+    EXPECT_EQ(shaper.shaping(windows_of(trace, 1)), 1.0);
+    ShapingState state{0.5};
+    shaper.reader().see(windows_of(trace, 1)[0], state);
+    EXPECT_EQ(state.best, 1.0);
+}
+
+TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) {
+    KnowledgeConfig const config{20, 1.83f};
+    KnowledgeBuilder builder{config, make_scan_index(config)};
+    Stream rng{3, Purpose::test};
+    for (int i = 0; i < 12; ++i) {
+        Trace const trace = test::lifelike_trace(rng, 2000);
+        builder.add_individual(windows_of(trace, config.window_length), rng.below(8));
+    }
+    KnowledgeBase const base = randomize(std::move(builder).finish({}), 5);
+    Shaper const shaper{base};
+    auto const scan = make_scan_index(config);
+    for (int i = 0; i < base.size(); ++i) scan->add(base.window(i));
+    auto const search = scan->search();
+    for (int i = 0; i < 40; ++i) {
+        Stream again =
+            i % 2 == 0 ? rng : Stream{3, Purpose::test};   // new traces, and one that the base was built from
+        Trace const trace = test::lifelike_trace(again, 2000);
+        rng.bits();
+        std::vector<Window> const windows = windows_of(trace, config.window_length);
+        double expected = no_feature_value;
+        for (Window const& window : windows)
+            if (Match const m = search->match(window); m.found()) expected = std::max(expected, base.value(m.feature));
+        EXPECT_EQ(shaper.shaping(windows), expected);
+    }
+}
+
+TEST(Shaper, answers_several_threads_alike) {
+    KnowledgeConfig const config{20, 1.83f};
+    KnowledgeBuilder builder{config, make_scan_index(config)};
+    Stream rng{4, Purpose::test};
+    for (int i = 0; i < 6; ++i) {
+        Trace const trace = test::lifelike_trace(rng, 2000);
+        builder.add_individual(windows_of(trace, config.window_length), i);
+    }
+    Shaper const shaper{std::move(builder).finish({})};
+    Trace const query = test::lifelike_trace(rng, 2000);
+    std::vector<Window> const windows = windows_of(query, config.window_length);
+    double const expected = shaper.shaping(windows);
+    std::vector<double> got(4, -2);
+    std::vector<std::thread> threads;
+    for (double& result : got)
+        threads.emplace_back([&] {
+            for (int k = 0; k < 5; ++k) result = shaper.shaping(windows);
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (double const result : got) EXPECT_EQ(result, expected);
+}

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <lore/core/random.h>
+#include <lore/knowledge/knowledge_base.h>
+
+#include <initializer_list>
+
+namespace lore::test {
+
+/// A trace of hand-made steps: each has its binary channels and one number for all six continuous channels.
+struct Step {
+    std::uint16_t bits;
+    float level;
+};
+
+inline Trace trace_of(std::initializer_list<Step> steps) {
+    Trace trace;
+    for (Step const& step : steps) {
+        trace.bits.push_back(step.bits);
+        trace.values.insert(trace.values.end(), continuous_count, step.level);
+    }
+    return trace;
+}
+
+/// A trace that looks like a robot's: lights come and go, wheels mostly at their stops, ranges drift. `phrases` short
+/// sequences are repeated with small changes, so that windows resemble each other as those of a lineage do.
+inline Trace lifelike_trace(Stream& rng, int steps) {
+    Trace trace;
+    std::uint16_t bits = static_cast<std::uint16_t>(rng.bits() & window_bits_mask);
+    float values[continuous_count]{0.2f, 0.4f, 0.1f, 1.0f, 0.9f, 0.5f};
+    for (int step = 0; step < steps; ++step) {
+        if (rng.chance(0.05)) bits ^= static_cast<std::uint16_t>(1u << rng.below(binary_count));
+        if (rng.chance(0.02)) bits = 0;
+        for (int channel = 0; channel < continuous_count; ++channel) {
+            float& value = values[channel];
+            if (channel < 3) value += static_cast<float>(rng.uniform(-0.05, 0.05));
+            else if (rng.chance(0.04))
+                value = rng.coin() ? (rng.coin() ? 0.0f : 1.0f) : static_cast<float>(rng.uniform());
+            value = value < 0 ? 0 : value > 1 ? 1 : value;
+            trace.values.push_back(value);
+        }
+        trace.bits.push_back(bits);
+    }
+    return trace;
+}
+
+}   // namespace lore::test

@@ -1,0 +1,113 @@
+#include <lore/network/network.h>
+
+#include <lore/network/mutation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+using namespace lore;
+
+namespace {
+
+/// The model's equation on the genome itself, in double precision and with libm, unreachable neurons included.
+struct Reference {
+    Genome const& genome;
+    std::map<int, double> previous;
+
+    std::array<double, 3> tick(std::array<float, sensor_count> const& inputs) {
+        std::map<int, double> next;
+        for (int n = first_output; n < first_hidden + genome.hidden_count(); ++n) {
+            double sum = 0;
+            for (Edge const& edge : genome.edges)
+                if (edge.target == n)
+                    sum += (edge.weight * 10.0 - 5.0) *
+                           (edge.source < sensor_count ? inputs[edge.source] : previous[edge.source]);
+            double const bias = genome.biases[static_cast<std::size_t>(n - first_output)] * 10.0 - 5.0;
+            next[n] = 1.0 / (1.0 + std::exp(5.0 * bias - sum));
+        }
+        previous = next;
+        return {next[12], next[13], next[14]};
+    }
+};
+
+}   // namespace
+
+TEST(Compile, leaves_out_neurons_from_which_no_output_can_be_reached) {
+    // 15 feeds only 16 and itself, 16 feeds nothing; 17 feeds an output and is fed by 18, which nobody feeds.
+    Genome const genome{
+        {{0, 15, 0.1f}, {15, 15, 0.2f}, {15, 16, 0.3f}, {18, 17, 0.4f}, {17, 14, 0.5f}, {5, 17, 0.6f}, {1, 14, 1.0f}},
+        {0.5f, 0.6f, 0.7f, 0.1f, 0.2f, 0.3f, 0.4f}};
+    Network const network = compile(genome);
+    EXPECT_EQ(network.hidden_count, 2);
+    EXPECT_EQ(network.first, (std::vector<std::uint16_t>{0, 0, 0, 2, 4, 4}));
+    EXPECT_EQ(network.source, (std::vector<std::uint8_t>{1, 12, 5, 13}));
+    EXPECT_EQ(network.weight, (std::vector<float>{5.0f, 0.0f, decode_gene(0.6f), decode_gene(0.4f)}));
+    ASSERT_EQ(network.bias.size(), 5u);
+    EXPECT_EQ(network.bias[0], 0.0f);
+    EXPECT_EQ(network.bias[3], 5.0f * decode_gene(0.3f));
+}
+
+TEST(Tick, gives_a_neuron_without_edges_its_constant) {
+    Network const network = compile({{}, {0.5f, 0.6f, 0.0f}});
+    NetworkState state;
+    std::array<float, sensor_count> inputs{};
+    std::array<float, effector_count> outputs{};
+    tick(network, inputs, state, outputs);
+    EXPECT_EQ(outputs[0], 0.5f);
+    EXPECT_NEAR(outputs[1], 1 / (1 + std::exp(5.0)), 1e-8);
+    EXPECT_NEAR(outputs[2], 1 / (1 + std::exp(-25.0)), 1e-7);
+}
+
+TEST(Tick, passes_inputs_to_outputs_at_once_and_through_a_hidden_neuron_one_tick_later) {
+    Network const network = compile({{{0, 12, 1.0f}, {1, 15, 1.0f}, {15, 13, 1.0f}}, {0.5f, 0.5f, 0.5f, 1.0f}});
+    NetworkState state;
+    std::array<float, effector_count> outputs{};
+    std::array<float, sensor_count> inputs{};
+    inputs[0] = inputs[1] = 1.0f;
+    tick(network, inputs, state, outputs);
+    EXPECT_NEAR(outputs[0], 1 / (1 + std::exp(-5.0)), 1e-6);
+    EXPECT_EQ(outputs[1], 0.5f);   // the hidden neuron's state was 0
+    double const hidden = 1 / (1 + std::exp(25.0 - 5.0));
+    EXPECT_NEAR(state.hidden[0], hidden, 1e-15);
+    tick(network, inputs, state, outputs);
+    EXPECT_NEAR(outputs[1], 1 / (1 + std::exp(-5.0 * hidden)), 1e-7);
+}
+
+TEST(Tick, follows_the_equation_for_evolved_networks) {
+    for (std::uint32_t line = 0; line < 30; ++line) {
+        Genome genome = founder({3, Purpose::test, 0, line});
+        Stream rng{3, Purpose::test, 1, line};
+        MutationConfig growing;
+        growing.add_neuron_probability = 0.3;
+        for (std::uint32_t i = 0; i < 10 * line; ++i) mutate(genome, growing, {}, rng);
+        Network const network = compile(genome);
+        Reference reference{genome, {}};
+        NetworkState state;
+        for (int step = 0; step < 50; ++step) {
+            std::array<float, sensor_count> inputs;
+            for (float& input : inputs) input = static_cast<float>(rng.uniform());
+            std::array<float, effector_count> outputs{};
+            tick(network, inputs, state, outputs);
+            auto const expected = reference.tick(inputs);
+            for (std::size_t o = 0; o < 3; ++o) ASSERT_NEAR(outputs[o], expected[o], 2e-5);
+        }
+    }
+}
+
+TEST(Tick, saturates_without_infinity_at_the_largest_sums) {
+    Genome genome{{}, {1.0f, 0.0f, 0.5f}};
+    for (NeuronIndex input = 0; input < sensor_count; ++input) {
+        genome.edges.push_back({input, 12, 0.0f});
+        genome.edges.push_back({input, 13, 1.0f});
+    }
+    std::array<float, sensor_count> inputs;
+    inputs.fill(1.0f);
+    std::array<float, effector_count> outputs{};
+    NetworkState state;
+    tick(compile(genome), inputs, state, outputs);
+    EXPECT_GT(outputs[0], 0.0f);
+    EXPECT_LT(outputs[0], 1e-30f);
+    EXPECT_EQ(outputs[1], 1.0f);
+}
