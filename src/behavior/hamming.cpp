@@ -143,11 +143,12 @@ private:
     std::vector<std::uint32_t> counts_, terms_;
 };
 
-/// Set bits among the first `steps` steps.
-std::size_t ones(Descriptors const& d, std::size_t steps) {
-    std::size_t count = 0;
-    for (std::size_t step = 0; step < steps; ++step) count += static_cast<std::size_t>(std::popcount(d.bits[step]));
-    return count;
+/// Set bits before each step, and among all: a sum that every pair of evaluations of different lengths asks for.
+std::vector<std::uint32_t> ones_before(Descriptors const& d) {
+    std::vector<std::uint32_t> ones(d.bits.size() + 1);
+    for (std::size_t step = 0; step < d.bits.size(); ++step)
+        ones[step + 1] = ones[step] + static_cast<std::uint32_t>(std::popcount(d.bits[step]));
+    return ones;
 }
 
 }   // namespace
@@ -158,15 +159,19 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
     std::size_t longest = 0;
     for (Descriptors const* d : pool) longest = std::max(longest, d->bits.size());
     DifferenceCounts const differences(pool, first, longest);
+    std::vector<std::vector<std::uint32_t>> ones(pool.size());   // only of those who outlive somebody
     for (int i = first; i < last; ++i) {
         for (int j = 0; j < i; ++j) {
             bool const row_is_longer = pool[i]->bits.size() >= pool[j]->bits.size();
-            Descriptors const &longer = *pool[row_is_longer ? i : j], &shorter = *pool[row_is_longer ? j : i];
-            std::size_t const length = longer.bits.size(), common = shorter.bits.size();
+            int const outliving = row_is_longer ? i : j;
+            std::size_t const length = pool[outliving]->bits.size(), common = pool[row_is_longer ? j : i]->bits.size();
             std::size_t count = differences(i, j);
             // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
-            if (length != common)
-                count = count - (ones(longer, length) - ones(longer, common)) + (length - common) * bits_per_step;
+            if (length != common) {
+                std::vector<std::uint32_t>& before = ones[outliving];
+                if (before.empty()) before = ones_before(*pool[outliving]);
+                count = count - (before[length] - before[common]) + (length - common) * bits_per_step;
+            }
             matrix.set(i, j,
                        length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step));
         }
