@@ -1,0 +1,38 @@
+#include "subcommand.h"
+
+#include <lore/campaign/choice.h>
+#include <lore/campaign/plan.h>
+#include <lore/campaign/state.h>
+
+#include <fmt/ranges.h>
+
+namespace lore::campaign_program {
+
+namespace {
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    add_campaign(app, arguments);
+    add_launcher(app, arguments);
+}
+
+ExitCode work(Arguments const& arguments) {
+    CampaignPlan const campaign = read_campaign(arguments.file);
+    CampaignDirectory const directory{arguments.directory};
+    auto const choice = recorded_choice(directory);
+    bool const usable = choice && choice->covers(campaign);
+    fmt::print("# {}\n{:<24} {:<22} {}\n", campaign.title, "step", "waits for", "command");
+    for (Step const& step : steps_of(campaign)) {
+        auto const command =
+            command_of(campaign, directory, arguments.runner.launcher, step, usable ? &*choice : nullptr);
+        fmt::print("{:<24} {:<22} {}\n", step.name,
+                   step.after.empty() ? "-" : fmt::format("{}", fmt::join(step.after, ",")),
+                   command.empty() ? "(source runs for the knowledge bases)" : shell_text(command));
+    }
+    return ExitCode::done;
+}
+
+}   // namespace
+
+Subcommand const plan{"plan", "list the steps, what each waits for, and its command", add_options, work};
+
+}   // namespace lore::campaign_program

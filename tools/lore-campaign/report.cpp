@@ -1,0 +1,27 @@
+#include "subcommand.h"
+
+#include <lore/campaign/plan.h>
+#include <lore/campaign/report.h>
+
+namespace lore::campaign_program {
+
+namespace {
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    add_campaign(app, arguments);
+    app.add_option("--out", arguments.out, "write them here, not beside the runs (default: --dir)")->type_name("DIR");
+}
+
+ExitCode work(Arguments const& arguments) {
+    CampaignDirectory const from{arguments.directory};
+    CampaignDirectory const into{arguments.out.empty() ? arguments.directory : arguments.out};
+    write_report(read_campaign(arguments.file), from, into);
+    if (!arguments.quiet) fmt::print("{}\n", into.file("report.html"));
+    return ExitCode::done;
+}
+
+}   // namespace
+
+Subcommand const report{"report", "tables, figures and report.html from what is there by now", add_options, work};
+
+}   // namespace lore::campaign_program

@@ -1,0 +1,35 @@
+#include "subcommand.h"
+
+#include <lore/campaign/plan.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace lore::campaign_program {
+
+namespace {
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    add_campaign(app, arguments);
+    add_launcher(app, arguments);
+    app.add_option("-j,--jobs", arguments.jobs, "steps at a time (default: cores / ranks)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--only", arguments.runner.only,
+                   "only these steps or groups, such as source, source/007 or knowledge/kb1");
+}
+
+ExitCode work(Arguments const& arguments) {
+    RunnerOptions options = arguments.runner;
+    int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    options.jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores / options.launcher.ranks);
+    options.quiet = arguments.quiet;
+    return run_campaign(read_campaign(arguments.file), CampaignDirectory{arguments.directory}, options);
+}
+
+}   // namespace
+
+Subcommand const run{"run",
+                     "work through the steps on this machine; finished ones are skipped, interrupted ones resumed",
+                     add_options, work};
+
+}   // namespace lore::campaign_program

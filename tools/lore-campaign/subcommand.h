@@ -1,0 +1,42 @@
+#pragma once
+
+#include "program.h"
+
+#include <lore/campaign/runner.h>
+
+#include <string>
+#include <vector>
+
+namespace lore::campaign_program {
+
+/// What the command line says. Each subcommand reads the members that it has options for.
+struct Arguments {
+    std::string file, directory;   ///< of the campaign
+    RunnerOptions runner;
+    int jobs = 0;             ///< of `run`; 0: cores / ranks
+    std::string time_limit;   ///< of `submit`
+    int concurrent = 0;
+    std::vector<std::string> cluster_options;
+    bool only_write = false;
+    std::string out;             ///< of `report`
+    std::string first, second;   ///< of `test`
+    bool interval = false;
+    bool quiet = false;
+};
+
+/// A subcommand: what it is called, the options it takes (bound to the arguments), and what it does.
+struct Subcommand {
+    char const* name;
+    char const* description;
+    void (*add_options)(CLI::App&, Arguments&);
+    ExitCode (*work)(Arguments const&);
+};
+
+extern Subcommand const plan, run, submit, report, status, test;
+
+/// FILE and --dir, of all that work on a campaign.
+void add_campaign(CLI::App&, Arguments&);
+/// --ranks, --launch and --programs, of those that start runs or say how.
+void add_launcher(CLI::App&, Arguments&);
+
+}   // namespace lore::campaign_program

@@ -1,0 +1,42 @@
+#include "subcommand.h"
+
+#include <lore/campaign/plan.h>
+#include <lore/campaign/slurm.h>
+
+#include <filesystem>
+
+namespace lore::campaign_program {
+
+namespace {
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    add_campaign(app, arguments);
+    add_launcher(app, arguments);
+    app.add_option("--time", arguments.time_limit, "limit of a task, HH:MM:SS (default: the campaign's)");
+    app.add_option("--concurrent", arguments.concurrent,
+                   "most tasks of a treatment at a time (default: the campaign's)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--sbatch", arguments.cluster_options,
+                   "a further #SBATCH option, such as --partition=long; repeatable");
+    app.add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
+}
+
+ExitCode work(Arguments const& arguments) {
+    CampaignPlan campaign = read_campaign(arguments.file);
+    if (!arguments.time_limit.empty()) campaign.cluster.time_limit = arguments.time_limit;
+    if (arguments.concurrent > 0) campaign.cluster.concurrent = arguments.concurrent;
+    campaign.cluster.options.insert(campaign.cluster.options.end(), arguments.cluster_options.begin(),
+                                    arguments.cluster_options.end());
+    std::string const self = std::filesystem::read_symlink("/proc/self/exe").string();
+    for (std::string const& line : submit_campaign(campaign, CampaignDirectory{arguments.directory},
+                                                   arguments.runner.launcher, self, arguments.only_write))
+        if (!arguments.quiet) fmt::print("{}\n", line);
+    return ExitCode::done;
+}
+
+}   // namespace
+
+Subcommand const submit{"submit", "write Slurm job scripts to DIR/slurm for what is not done yet, and submit them",
+                        add_options, work};
+
+}   // namespace lore::campaign_program
