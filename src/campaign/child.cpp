@@ -74,6 +74,10 @@ std::string text(ChildEnd const& end) {
     return end.signal != 0 ? fmt::format("signal {}", end.signal) : fmt::format("exit code {}", end.exit_code);
 }
 
+void append_to_log(std::string const& path, std::string const& line) {
+    std::ofstream{path, std::ios::app} << line << "\n";
+}
+
 std::vector<std::string> last_lines(std::string const& path, std::size_t count) {
     std::ifstream file{path, std::ios::binary | std::ios::ate};
     if (!file) return {};

@@ -25,6 +25,9 @@ std::optional<ChildEnd> poll_child(pid_t);
 /// "exit code 1" or "signal 9".
 std::string text(ChildEnd const&);
 
+/// Adds a line to a log, if it can be written.
+void append_to_log(std::string const& path, std::string const& line);
+
 /// The last `count` lines of a file that say something; empty if it cannot be read.
 std::vector<std::string> last_lines(std::string const& path, std::size_t count);
 

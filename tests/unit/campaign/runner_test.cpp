@@ -178,3 +178,38 @@ TEST_F(Runner, says_when_a_program_is_missing) {
     EXPECT_EQ(run_campaign(plan(), directory(), nowhere), ExitCode::failure);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot start"), std::string::npos);
 }
+
+TEST_F(Runner, kills_a_launcher_that_outlives_its_ranks_and_makes_the_run_again) {
+    // Once for each of its runs it kills its rank, never asks how that ended, and waits for ever.
+    write("launcher", "#!/bin/sh\n"
+                      "hung=$(dirname $0)/hung-$(echo \"$*\" | cksum | cut -d' ' -f1)\n"
+                      "\"$@\" & rank=$!\n"
+                      "if [ -e \"$hung\" ]; then wait $rank; exit $?; fi\n"
+                      "touch \"$hung\"; sleep 0.2; kill -9 $rank; exec sleep 600\n");
+    std::filesystem::permissions(scratch.file("launcher"), std::filesystem::perms::owner_all);
+    ::setenv("LORE_FAKE_MS", "20", 1);
+    RunnerOptions launched = options();
+    launched.launcher.ranks = 2;
+    launched.launcher.launch = scratch.file("launcher");
+    launched.launcher_patience = 0.5;
+    launched.only = {"source/001", "source/002"};
+    EXPECT_EQ(run_campaign(plan(), directory(), launched), ExitCode::done);
+    EXPECT_EQ(state("source/001").status, StepStatus::done);
+    EXPECT_EQ(state("source/002").status, StepStatus::done);
+    EXPECT_NE(read(directory().log("source/001")).find("has had no living rank for 0.5 s, and was killed"),
+              std::string::npos);
+}
+
+TEST_F(Runner, takes_the_result_of_a_run_whose_launcher_hangs_after_it) {
+    write("launcher", "#!/bin/sh\n\"$@\" & wait $!\nexec sleep 600\n");
+    std::filesystem::permissions(scratch.file("launcher"), std::filesystem::perms::owner_all);
+    count_starts();
+    ::setenv("LORE_FAKE_MS", "100", 1);   // long enough to be seen alive
+    RunnerOptions launched = options();
+    launched.launcher.ranks = 2;
+    launched.launcher.launch = scratch.file("launcher");
+    launched.launcher_patience = 0.5;
+    launched.only = {"source/001"};
+    EXPECT_EQ(run_campaign(plan(), directory(), launched), ExitCode::done);
+    EXPECT_EQ(starts(), 1);
+}

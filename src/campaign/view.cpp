@@ -1,0 +1,88 @@
+#include "view.h"
+
+#include "board.h"
+
+#include <lore/core/progress.h>
+
+#include <map>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// Seconds that a generation of this treatment takes, from what its runs have shown, else from any; 0 if none has
+/// shown anything.
+double seconds_per_generation(std::vector<Task> const& tasks, std::string const& group) {
+    double seconds = 0, generations = 0, all_seconds = 0, all_generations = 0;
+    for (Task const& task : tasks) {
+        if (!task.is_run() || task.generation == 0) continue;
+        all_seconds += task.seconds;
+        all_generations += task.generation;
+        if (task.step.group != group) continue;
+        seconds += task.seconds;
+        generations += task.generation;
+    }
+    if (generations > 0) return seconds / generations;
+    return all_generations > 0 ? all_seconds / all_generations : 0;
+}
+
+/// Seconds of work that are left in all runs together.
+double work_left(std::vector<Task> const& tasks) {
+    double left = 0;
+    std::map<std::string, double> cost;
+    for (Task const& task : tasks) {
+        if (!task.is_run() || task.phase == Phase::done || task.phase == Phase::failed || task.phase == Phase::blocked)
+            continue;
+        auto const known = cost.try_emplace(task.step.group, -1).first;
+        if (known->second < 0) known->second = seconds_per_generation(tasks, task.step.group);
+        left += known->second * (task.generations - task.generation);
+    }
+    return left;
+}
+
+std::string run_line(Task const& task) {
+    double const left = task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
+    return fmt::format("  {:<22} {} {:>6}/{}  best {} {} {}", task.step.name,
+                       bar(static_cast<double>(task.generation) / task.generations, 20), task.generation,
+                       task.generations, task.best_balls, task.best_balls == 1 ? "ball " : "balls",
+                       left > 0 ? fmt::format(" {} left", duration_text(left)) : "");
+}
+
+}   // namespace
+
+std::vector<std::string> step_lines(std::vector<Task> const& tasks) {
+    std::vector<std::string> lines;
+    for (Task const& task : tasks) {
+        if (task.phase != Phase::working) continue;
+        bool const has_bar = task.is_run() && task.generations > 0;
+        lines.push_back(has_bar ? run_line(task) : fmt::format("  {:<22} at work", task.step.name));
+    }
+    return lines;
+}
+
+std::string overall_line(std::vector<Task> const& tasks, int jobs) {
+    double const left = work_left(tasks) / jobs;
+    int const done = count(tasks, Phase::done);
+    return fmt::format("{} {} of {} steps done, {} running, {} failed{}",
+                       bar(done / static_cast<double>(tasks.size()), 20), done, tasks.size(),
+                       count(tasks, Phase::working) + count(tasks, Phase::elsewhere),
+                       count(tasks, Phase::failed) + count(tasks, Phase::blocked),
+                       left > 0 ? fmt::format(", about {} left", duration_text(left)) : "");
+}
+
+std::string summary_line(std::vector<Task> const& tasks) {
+    int const failed = count(tasks, Phase::failed), blocked = count(tasks, Phase::blocked);
+    return fmt::format("{} of {} steps done{}{}{}", count(tasks, Phase::done), tasks.size(),
+                       failed > 0 ? fmt::format(", {} failed", failed) : "",
+                       blocked > 0 ? fmt::format(", {} wait for those", blocked) : "",
+                       unfinished(tasks) > 0 ? "; run it again to go on" : "");
+}
+
+std::string started_line(Task const& task) {
+    if (task.generation == 0) return fmt::format("{} started", task.step.name);
+    return fmt::format("{} resumed at generation {} of {}", task.step.name, task.generation, task.generations);
+}
+
+}   // namespace lore
