@@ -1,13 +1,15 @@
 #include <lore/campaign/plan.h>
 
-#include <lore/core/error.h>
+#include "knowledge_kinds.h"
+#include "plan_reading.h"
+#include "treatment_inputs.h"
+
 #include <lore/core/toml.h>
 #include <lore/experiment/config.h>
 
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -16,16 +18,10 @@ namespace lore {
 
 namespace {
 
-constexpr std::int64_t most_runs = 9999;
-constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max() / 2;
+using Names = std::vector<std::string>;
+
 // Steps of other kinds than runs have names that start with these words.
 std::set<std::string, std::less<>> const reserved_names{"choose", "knowledge", "archive", "report"};
-
-bool is_name(std::string_view text) {
-    return !text.empty() && text.size() <= 40 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '_' || c == '-';
-    });
-}
 
 /// Values that treatments share unless they have their own.
 struct Defaults {
@@ -34,126 +30,131 @@ struct Defaults {
     std::int64_t generations = 0;   ///< 0: as the configuration says
 };
 
+Defaults read_defaults(TomlTable const& document) {
+    Defaults defaults;
+    defaults.runs = document.integer("runs", 1, most_runs).value_or(defaults.runs);
+    defaults.first_seed = document.integer("first_seed", 0, most_seed).value_or(defaults.first_seed);
+    defaults.generations = document.integer("generations", 1, most_generations).value_or(0);
+    return defaults;
+}
+
+/// All keys but `name`. Nothing that it names is looked at.
 Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::string name) {
     Treatment treatment;
-    treatment.name = name.empty() ? table.required_string("name") : std::move(name);
-    if (!is_name(treatment.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
-    if (reserved_names.contains(treatment.name))
-        table.fail("name", fmt::format("'{}' is reserved", treatment.name), "Choose another.");
+    treatment.name = std::move(name);
     treatment.label = table.string("label").value_or(treatment.name);
     treatment.config = table.required_string("config");
-    treatment.knowledge = table.string("knowledge").value_or("");
+    for (TreatmentInput const& input : treatment_inputs()) treatment.*input.name = table.string(input.key).value_or("");
     treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
     treatment.first_seed =
         static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
-    std::int64_t const generations = table.integer("generations", 1, 10'000'000).value_or(defaults.generations);
+    std::int64_t const generations = table.integer("generations", 1, most_generations).value_or(defaults.generations);
     if (generations != 0) treatment.overrides.push_back(fmt::format("evolution.generations={}", generations));
-    for (std::string& setting : table.strings("set").value_or(std::vector<std::string>{}))
+    for (std::string& setting : table.strings("set").value_or(Names{}))
         treatment.overrides.push_back(std::move(setting));
     table.reject_unknown();
     return treatment;
 }
 
-/// The one key of `choices` that the table has.
-std::string_view only_key(TomlTable const& table, std::vector<std::string_view> const& choices) {
-    std::string_view found;
-    for (std::string_view key : choices) {
-        if (!table.has(key)) continue;
-        if (!found.empty()) table.fail(key, fmt::format("it excludes '{}'", found), "Keep one of them.");
-        found = key;
-    }
-    if (found.empty()) {
-        table.reject_unknown();   // one of them misspelt, most likely
-        table.fail("name", fmt::format("one of {} is missing", fmt::join(choices, ", ")), "Add one.");
-    }
-    return found;
+// ---- the tables of the file: one function each ----
+
+void read_source(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
+    TomlTable const table = document.required_table("source");
+    plan.source = read_treatment(table, defaults, "source");
+    for (TreatmentInput const& input : treatment_inputs())
+        if (!(plan.source.*input.name).empty())
+            table.fail(input.key, "the source treatment takes nothing from other steps", "Remove it.");
+    read_windows(table, plan.config_path(plan.source), plan.source.overrides);
 }
 
-/// Whether Algorithm 1 makes it; the others are made of a base that is there.
-bool is_built(KnowledgeKind kind) { return kind != KnowledgeKind::random && kind != KnowledgeKind::reduced; }
+void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
+    Names bases;
+    for (KnowledgePlan const& former : plan.knowledge) bases.push_back(former.name);
+    require_new(table, knowledge.name, bases);
+    KnowledgeKindRow const& kind = row_of(knowledge.kind);
+    if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
+    for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
+    if (knowledge.run > plan.source.runs)
+        table.fail("run", fmt::format("there are only {} source runs", plan.source.runs),
+                   "Name one of them, or raise their number.");
+    if (kind.base_has_lineage && plan.knowledge_base(knowledge.base).kind != KnowledgeKind::lineage)
+        table.fail(kind.key, "it must name a knowledge base with 'balls' or 'run'");
+}
 
-KnowledgePlan read_knowledge(TomlTable const& table) {
-    KnowledgePlan plan;
-    plan.name = table.required_string("name");
-    if (!is_name(plan.name)) table.fail("name", "a name is 1 to 40 letters, digits, '_' or '-'");
-    plan.label = table.string("label").value_or(plan.name);
-    std::string_view const key = only_key(table, {"balls", "run", "lineage_of", "all_of", "random_of", "part_of"});
-    if (key == "balls") {
-        plan.balls = table.required_number("balls", 0, 1e6);
-    } else if (key == "run") {
-        plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
-    } else {
-        plan.kind = key == "lineage_of"  ? KnowledgeKind::same_lineage
-                    : key == "all_of"    ? KnowledgeKind::all
-                    : key == "random_of" ? KnowledgeKind::random
-                                         : KnowledgeKind::reduced;
-        plan.base = table.required_string(key);
+void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
+    for (TomlTable const& table : document.tables("knowledge")) {
+        KnowledgePlan knowledge = read_knowledge(table);
+        check_knowledge(table, knowledge, plan);
+        plan.knowledge.push_back(std::move(knowledge));
     }
-    if (plan.kind == KnowledgeKind::random)
-        plan.seed = static_cast<std::uint64_t>(table.integer("seed", 0, most_seed).value_or(1));
-    else plan.options = table.strings("options").value_or(std::vector<std::string>{});
-    if (is_built(plan.kind)) {
-        for (std::string const& option : plan.options)
-            if (option.starts_with("--window-length") || option.starts_with("--threshold"))
-                table.fail("options", fmt::format("'{}' is for the runs that use the base too", option),
-                           "Write window_length = or match_threshold = instead.");
-        plan.match_threshold = table.number("match_threshold", 0, 1000);
-        if (auto const steps = table.integer("window_length", 1, longest_window))
-            plan.window_length = static_cast<int>(*steps);
+    auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                             [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });
+    if (from_lineages > plan.source.runs)
+        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}",
+                                               from_lineages, plan.source.runs));
+}
+
+void read_treatments(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
+    Names names{plan.source.name};
+    for (TomlTable const& table : document.tables("treatment")) {
+        std::string name = read_name(table);
+        if (reserved_names.contains(name)) table.fail("name", fmt::format("'{}' is reserved", name), "Choose another.");
+        Treatment treatment = read_treatment(table, defaults, std::move(name));
+        require_new(table, treatment.name, names);
+        read_windows(table, plan.config_path(treatment), treatment.overrides);
+        for (TreatmentInput const& input : treatment_inputs())
+            if (!(treatment.*input.name).empty()) input.fit(table, plan, treatment);
+        names.push_back(treatment.name);
+        plan.targets.push_back(std::move(treatment));
     }
-    if (plan.kind == KnowledgeKind::reduced) {
-        std::string_view const how = only_key(table, {"top", "least_value", "least_count", "consensus"});
-        auto const reduce_by = [&](std::string_view option, auto bound) {
-            plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", bound)});
-        };
-        if (how == "top") reduce_by("--top", *table.integer(how, 1, 100'000'000));
-        if (how == "least_value") reduce_by("--min-value", *table.number(how, -1, 1e6));
-        if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
-        if (how == "consensus") plan.consensus = *table.strings("consensus");
+}
+
+Names read_order(TomlTable const& table, Names const& treatments) {
+    auto order = table.strings("order");
+    if (!order) return treatments;
+    for (std::string const& name : *order) require_known(table, "order", name, treatments);
+    if (std::set<std::string>(order->begin(), order->end()).size() != treatments.size() ||
+        order->size() != treatments.size())
+        table.fail("order", "it must name every treatment once");
+    return *std::move(order);
+}
+
+FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
+    Names bases;
+    for (KnowledgePlan const& knowledge : plan.knowledge) bases.push_back(knowledge.name);
+    FigurePlan figures;
+    figures.trajectory = table.string("trajectory").value_or("");
+    figures.figure5 = table.strings("figure5").value_or(Names{});
+    figures.figure6 = table.strings("figure6").value_or(Names{});
+    if (!figures.trajectory.empty()) {
+        require_known(table, "trajectory", figures.trajectory, bases);
+        if (plan.knowledge_base(figures.trajectory).kind != KnowledgeKind::lineage)
+            table.fail("trajectory", "it must name a knowledge base made from a lineage");
     }
-    table.reject_unknown();
-    return plan;
+    for (std::string const& name : figures.figure5) require_known(table, "figure5", name, bases);
+    for (std::string const& name : figures.figure6) require_known(table, "figure6", name, bases);
+    return figures;
 }
 
-void check_name(TomlTable const& document, std::string_view key, std::string const& wanted,
-                std::vector<std::string> const& known) {
-    if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
-    std::vector<std::string_view> const words(known.begin(), known.end());
-    std::string const meant = nearest_word(wanted, words.data(), words.size());
-    document.fail(key, fmt::format("there is no '{}' before it", wanted),
-                  meant.empty() ? "Define it first." : fmt::format("Did you mean '{}'?", meant));
+void read_report(TomlTable const& document, CampaignPlan& plan) {
+    for (Treatment const& treatment : plan.targets) plan.report_order.push_back(treatment.name);
+    auto const table = document.table("report");
+    if (!table) return;
+    plan.report_order = read_order(*table, plan.report_order);
+    plan.figures = read_figures(*table, plan);
+    table->reject_unknown();
 }
 
-/// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
-KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge, KnowledgeConfig config) {
-    if (!is_built(knowledge.kind)) return windows_of(plan, plan.knowledge_base(knowledge.base), config);
-    config.window_length = knowledge.window_length.value_or(config.window_length);
-    if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);
-    return config;
-}
-
-/// Windows that a treatment's runs read. A mistake in its configuration is one of this campaign's file.
-KnowledgeConfig windows_read(TomlTable const& table, std::string const& config_path,
-                             std::vector<std::string> const& overrides) {
-    try {
-        return read_config(config_path, overrides).knowledge;
-    } catch (Error const& error) { table.fail(table.has("set") ? "set" : "config", error.what()); }
-}
-
-/// Has a treatment's runs read the windows of its base, unless its configuration does so already.
-void fit_windows(TomlTable const& table, std::string const& config_path, Treatment& treatment,
-                 KnowledgeConfig const& base) {
-    if (windows_read(table, config_path, {}) != base)
-        treatment.overrides.insert(treatment.overrides.begin(),
-                                   {fmt::format("knowledge.window_length={}", base.window_length),
-                                    fmt::format("knowledge.match_threshold={}", base.match_threshold)});
-    KnowledgeConfig const read = windows_read(table, config_path, treatment.overrides);
-    if (read != base)
-        table.fail("set",
-                   fmt::format("it asks for windows of {} steps and threshold {}, and '{}' has {} and {}",
-                               read.window_length, read.match_threshold, treatment.knowledge, base.window_length,
-                               base.match_threshold),
-                   "Leave them out: a treatment takes those of its base.");
+void read_cluster(TomlTable const& document, CampaignPlan& plan) {
+    auto const table = document.table("cluster");
+    if (!table) return;
+    ClusterPlan& cluster = plan.cluster;
+    cluster.time_limit = table->string("time_limit").value_or(cluster.time_limit);
+    cluster.warning_seconds =
+        static_cast<int>(table->integer("warning_seconds", 1, 3600).value_or(cluster.warning_seconds));
+    cluster.concurrent = static_cast<int>(table->integer("concurrent", 1, 100'000).value_or(cluster.concurrent));
+    cluster.options = table->strings("options").value_or(Names{});
+    table->reject_unknown();
 }
 
 }   // namespace
@@ -182,88 +183,12 @@ CampaignPlan read_campaign(std::string const& path) {
     plan.path = path;
     plan.directory = std::filesystem::path{path}.parent_path().string();
     plan.title = document.required_string("title");
-
-    Defaults defaults;
-    defaults.runs = document.integer("runs", 1, most_runs).value_or(defaults.runs);
-    defaults.first_seed = document.integer("first_seed", 0, most_seed).value_or(defaults.first_seed);
-    defaults.generations = document.integer("generations", 1, 10'000'000).value_or(0);
-
-    TomlTable const source = document.required_table("source");
-    plan.source = read_treatment(source, defaults, "source");
-    if (!plan.source.knowledge.empty()) document.fail("source", "the source treatment cannot use a knowledge base");
-    KnowledgeConfig const source_windows = windows_read(source, plan.config_path(plan.source), plan.source.overrides);
-
-    std::vector<std::string> bases;
-    for (TomlTable const& table : document.tables("knowledge")) {
-        KnowledgePlan knowledge = read_knowledge(table);
-        if (std::find(bases.begin(), bases.end(), knowledge.name) != bases.end())
-            table.fail("name", fmt::format("'{}' is defined twice", knowledge.name), "Rename one.");
-        if (!knowledge.base.empty()) check_name(table, "name", knowledge.base, bases);
-        for (std::string const& other : knowledge.consensus) check_name(table, "consensus", other, bases);
-        if (knowledge.run > plan.source.runs)
-            table.fail("run", fmt::format("there are only {} source runs", plan.source.runs),
-                       "Name one of them, or raise their number.");
-        bases.push_back(knowledge.name);
-        plan.knowledge.push_back(std::move(knowledge));
-        KnowledgeKind const kind = plan.knowledge.back().kind;
-        if ((kind == KnowledgeKind::all || kind == KnowledgeKind::same_lineage) &&
-            plan.knowledge_base(plan.knowledge.back().base).kind != KnowledgeKind::lineage)
-            table.fail(kind == KnowledgeKind::all ? "all_of" : "lineage_of",
-                       "it must name a knowledge base with 'balls' or 'run'");
-    }
-    auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
-                                             [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });
-    if (from_lineages > plan.source.runs)
-        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}",
-                                               from_lineages, plan.source.runs));
-
-    std::vector<std::string> names;
-    for (TomlTable const& table : document.tables("treatment")) {
-        Treatment treatment = read_treatment(table, defaults, "");
-        if (treatment.name == plan.source.name || std::find(names.begin(), names.end(), treatment.name) != names.end())
-            table.fail("name", fmt::format("'{}' is defined twice", treatment.name), "Rename one.");
-        std::string const config_path = plan.config_path(treatment);
-        if (treatment.knowledge.empty()) {
-            windows_read(table, config_path, treatment.overrides);
-        } else {
-            check_name(table, "knowledge", treatment.knowledge, bases);
-            fit_windows(table, config_path, treatment,
-                        windows_of(plan, plan.knowledge_base(treatment.knowledge), source_windows));
-        }
-        names.push_back(treatment.name);
-        plan.targets.push_back(std::move(treatment));
-    }
-
-    plan.report_order = names;
-    if (auto const report = document.table("report")) {
-        if (auto order = report->strings("order")) {
-            for (std::string const& name : *order) check_name(*report, "order", name, names);
-            if (std::set<std::string>(order->begin(), order->end()).size() != names.size() ||
-                order->size() != names.size())
-                report->fail("order", "it must name every treatment once");
-            plan.report_order = *std::move(order);
-        }
-        plan.figures.trajectory = report->string("trajectory").value_or("");
-        plan.figures.figure5 = report->strings("figure5").value_or(std::vector<std::string>{});
-        plan.figures.figure6 = report->strings("figure6").value_or(std::vector<std::string>{});
-        if (!plan.figures.trajectory.empty()) {
-            check_name(*report, "trajectory", plan.figures.trajectory, bases);
-            if (plan.knowledge_base(plan.figures.trajectory).kind != KnowledgeKind::lineage)
-                report->fail("trajectory", "it must name a knowledge base made from a lineage");
-        }
-        for (std::string const& name : plan.figures.figure5) check_name(*report, "figure5", name, bases);
-        for (std::string const& name : plan.figures.figure6) check_name(*report, "figure6", name, bases);
-        report->reject_unknown();
-    }
-    if (auto const cluster = document.table("cluster")) {
-        plan.cluster.time_limit = cluster->string("time_limit").value_or(plan.cluster.time_limit);
-        plan.cluster.warning_seconds =
-            static_cast<int>(cluster->integer("warning_seconds", 1, 3600).value_or(plan.cluster.warning_seconds));
-        plan.cluster.concurrent =
-            static_cast<int>(cluster->integer("concurrent", 1, 100'000).value_or(plan.cluster.concurrent));
-        plan.cluster.options = cluster->strings("options").value_or(std::vector<std::string>{});
-        cluster->reject_unknown();
-    }
+    Defaults const defaults = read_defaults(document);
+    read_source(document, defaults, plan);
+    read_knowledge_bases(document, plan);
+    read_treatments(document, defaults, plan);
+    read_report(document, plan);
+    read_cluster(document, plan);
     document.reject_unknown();
     return plan;
 }

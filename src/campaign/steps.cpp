@@ -1,5 +1,8 @@
 #include <lore/campaign/steps.h>
 
+#include "knowledge_kinds.h"
+#include "treatment_inputs.h"
+
 #include <lore/campaign/choice.h>
 #include <lore/core/error.h>
 
@@ -20,9 +23,6 @@ std::string flat(std::string_view step) {
     return name;
 }
 
-std::string knowledge_step(std::string_view name) { return fmt::format("knowledge/{}", name); }
-std::string archive_step(std::string_view name) { return fmt::format("archive/{}", name); }
-
 std::string program(Launcher const& launcher, std::string_view name) {
     return launcher.programs.empty() ? std::string{name} : (std::filesystem::path{launcher.programs} / name).string();
 }
@@ -41,34 +41,35 @@ std::vector<std::string> evolve_command(CampaignPlan const& plan, Launcher const
     return command;
 }
 
-std::string chosen_run(Choice const* choice, KnowledgePlan const& lineage_base) {
-    return choice == nullptr ? run_step("source", 0) : run_step("source", choice->of(lineage_base.name).run);
-}
-
-std::vector<std::string> build_command(CampaignPlan const& plan, CampaignDirectory const& directory,
-                                       Launcher const& launcher, KnowledgePlan const& knowledge, Choice const* choice) {
+std::vector<std::string> build_command(CommandContext const& context, Launcher const& launcher,
+                                       KnowledgePlan const& knowledge) {
     std::vector<std::string> command{program(launcher, "lore-kb")};
-    auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
-    switch (knowledge.kind) {
-    case KnowledgeKind::lineage: add({"build", directory.run(chosen_run(choice, knowledge))}); break;
-    case KnowledgeKind::same_lineage:
-        add({"build", directory.run(chosen_run(choice, plan.knowledge_base(knowledge.base)))});
-        break;
-    case KnowledgeKind::all: add({"build", directory.run(archive_step(knowledge.name)), "--all"}); break;
-    case KnowledgeKind::random:
-        add({"randomize", directory.knowledge(knowledge.base), "--seed", std::to_string(knowledge.seed)});
-        break;
-    case KnowledgeKind::reduced:
-        add({"reduce", directory.knowledge(knowledge.base)});
-        if (!knowledge.consensus.empty()) add({"--consensus"});
-        for (std::string const& other : knowledge.consensus) add({directory.knowledge(other)});
-        break;
-    }
+    auto add = [&](std::vector<std::string> const& words) {
+        command.insert(command.end(), words.begin(), words.end());
+    };
+    add(row_of(knowledge.kind).arguments(knowledge, context));
     if (knowledge.window_length) add({"--window-length", fmt::format("{}", *knowledge.window_length)});
     if (knowledge.match_threshold) add({"--threshold", fmt::format("{}", *knowledge.match_threshold)});
-    command.insert(command.end(), knowledge.options.begin(), knowledge.options.end());
-    add({"--out", directory.knowledge(knowledge.name)});
+    add(knowledge.options);
+    add({"--out", context.directory.knowledge(knowledge.name)});
     return command;
+}
+
+void add_runs(Treatment const& treatment, std::vector<Step>& steps) {
+    std::vector<std::string> after;
+    for (TreatmentInput const& input : treatment_inputs()) {
+        if ((treatment.*input.name).empty()) continue;
+        std::vector<std::string> const groups = input.prepare(treatment, steps);
+        after.insert(after.end(), groups.begin(), groups.end());
+    }
+    for (int run = 1; run <= treatment.runs; ++run)
+        steps.push_back({run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, after});
+}
+
+void add_build(KnowledgePlan const& knowledge, std::vector<Step>& steps) {
+    std::vector<std::string> const after = row_of(knowledge.kind).prepare(knowledge, steps);
+    std::string const name = knowledge_step(knowledge.name);
+    steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
 }
 
 }   // namespace
@@ -99,36 +100,10 @@ std::string CampaignDirectory::record(std::string_view step) const {
 
 std::vector<Step> steps_of(CampaignPlan const& plan) {
     std::vector<Step> steps;
-    auto add_runs = [&](Treatment const& treatment) {
-        std::vector<std::string> after;
-        if (!treatment.knowledge.empty()) after.push_back(knowledge_step(treatment.knowledge));
-        for (int run = 1; run <= treatment.runs; ++run)
-            steps.push_back(
-                {run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, after});
-    };
-    add_runs(plan.source);
+    add_runs(plan.source, steps);
     if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}});
-    for (KnowledgePlan const& knowledge : plan.knowledge) {
-        std::vector<std::string> after;
-        switch (knowledge.kind) {
-        case KnowledgeKind::lineage:
-        case KnowledgeKind::same_lineage: after = {"choose"}; break;
-        case KnowledgeKind::all: {
-            std::string const archive = archive_step(knowledge.name);
-            steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
-            after = {archive};
-            break;
-        }
-        case KnowledgeKind::random: after = {knowledge_step(knowledge.base)}; break;
-        case KnowledgeKind::reduced:
-            after = {knowledge_step(knowledge.base)};
-            for (std::string const& other : knowledge.consensus) after.push_back(knowledge_step(other));
-            break;
-        }
-        std::string const name = knowledge_step(knowledge.name);
-        steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
-    }
-    for (Treatment const& target : plan.targets) add_runs(target);
+    for (KnowledgePlan const& knowledge : plan.knowledge) add_build(knowledge, steps);
+    for (Treatment const& target : plan.targets) add_runs(target, steps);
     return steps;
 }
 
@@ -153,13 +128,17 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
 
 std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory,
                                     Launcher const& launcher, Step const& step, Choice const* choice) {
+    CommandContext const context{plan, directory, choice};
     switch (step.kind) {
     case StepKind::evolve: {
         Treatment const& treatment = plan.treatment(step.subject);
         auto command =
             evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
-        if (!treatment.knowledge.empty())
-            command.insert(command.end(), {"--kb", directory.knowledge(treatment.knowledge)});
+        for (TreatmentInput const& input : treatment_inputs()) {
+            if ((treatment.*input.name).empty()) continue;
+            auto const words = input.arguments(treatment, context);
+            command.insert(command.end(), words.begin(), words.end());
+        }
         return command;
     }
     case StepKind::archive: {
@@ -170,7 +149,7 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
         command.insert(command.end(), {"--archive", "all"});
         return command;
     }
-    case StepKind::build: return build_command(plan, directory, launcher, plan.knowledge_base(step.subject), choice);
+    case StepKind::build: return build_command(context, launcher, plan.knowledge_base(step.subject));
     case StepKind::choose: break;
     }
     return {};

@@ -24,6 +24,7 @@ enum class KnowledgeKind : std::uint8_t {
     same_lineage,   ///< over that of `base` once more, with other options
     all,            ///< over everybody evaluated in the source run of `base`
     random,         ///< `base` with drawn values
+    permuted,       ///< `base` with its values shuffled among the features
     reduced         ///< a part of `base`
 };
 
@@ -35,7 +36,7 @@ struct KnowledgePlan {
     double balls = 0;                        ///< lineage: the level wished of the source run's best-of-run [balls]
     int run = 0;                             ///< lineage: this source run, whatever its balls; 0: choose by `balls`
     std::string base;                        ///< all but lineage: the knowledge base it starts from
-    std::uint64_t seed = 1;                  ///< random: of the draw
+    std::uint64_t seed = 1;                  ///< random, permuted: of the draw
     std::optional<int> window_length;        ///< of its windows [steps]; without: the source runs'
     std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
     std::vector<std::string> consensus;      ///< reduced: the knowledge bases that must know a feature too

@@ -6,6 +6,9 @@
 
 #include "campaign_fixture.h"
 
+#include <campaign/knowledge_kinds.h>
+#include <campaign/treatment_inputs.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,6 +49,9 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     EXPECT_EQ(steps_of(paper).size(), 30u + 1 + 6 + 1 + 210);
     CampaignPlan const small = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/small.toml");
     EXPECT_EQ(small.report_order, paper.report_order);
+    CampaignPlan const still = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/still.toml");
+    EXPECT_EQ(still.targets.at(2).knowledge, "kb1_permuted");
+    EXPECT_EQ(steps_of(still).size(), 30u + 1 + 6 + 210);
     CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/ties.toml");
     EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90);
     // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
@@ -83,6 +89,8 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
     EXPECT_NE(complaint("runs = 4", "runs = 1").find("need as many source runs"), std::string::npos);
     EXPECT_NE(complaint("balls = 2", "balls = 2\nrun = 3").find("excludes"), std::string::npos);
+    EXPECT_NE(complaint("runs = 4", "knowledge = \"kb1\"").find("takes nothing from other steps"), std::string::npos);
+    EXPECT_NE(complaint("random_of = \"kb1\"", "permuted_of = \"kb3\"").find("no 'kb3' before"), std::string::npos);
     EXPECT_NE(complaint("order = [\"none\", ", "order = [").find("every treatment once"), std::string::npos);
     EXPECT_NE(complaint("config = \"target.toml\"", "config = \"target.tml\"").find("target.tml"), std::string::npos);
     EXPECT_NE(complaint("generations = 20", "generatons = 20").find("Did you mean 'generations'"), std::string::npos);
@@ -147,6 +155,14 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
               "lore-kb build c/runs/archive/kb1_all --all --out c/knowledge/kb1_all.lorekb");
     EXPECT_EQ(command("knowledge/kb1_top"),
               "lore-kb reduce c/knowledge/kb1.lorekb --top 10 --out c/knowledge/kb1_top.lorekb");
+    write("permuted.toml", std::string{test::small_campaign}.insert(
+                               test::small_campaign.find("[[treatment]]"),
+                               "[[knowledge]]\nname = \"permuted\"\npermuted_of = \"kb1\"\nseed = 7\n"));
+    CampaignPlan const permuted = read_campaign(scratch.file("permuted.toml"));
+    Step const permuting = steps_named(steps_of(permuted), {"knowledge/permuted"}).front();
+    EXPECT_EQ(permuting.after, std::vector<std::string>{"knowledge/kb1"});
+    EXPECT_EQ(shell_text(command_of(permuted, CampaignDirectory{"c"}, Launcher{}, permuting, &choice)),
+              "lore-kb randomize c/knowledge/kb1.lorekb --permute --seed 7 --out c/knowledge/permuted.lorekb");
     write("narrow.toml",
           std::string{test::small_campaign}.insert(
               test::small_campaign.find("[[treatment]]"),
@@ -167,4 +183,12 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     four.ranks = 4;
     auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
     EXPECT_EQ(shell_text({words.begin(), words.begin() + 6}), "mpirun -n 4 --bind-to none lore-evolve");
+}
+
+TEST_F(Campaign, has_every_kind_of_knowledge_and_input_of_treatments_in_its_documentation) {
+    std::string const page = read(LORE_SOURCE_DIR "/docs/campaigns.md");
+    for (KnowledgeKindRow const& kind : knowledge_kinds())
+        EXPECT_NE(page.find("| `" + std::string{kind.key} + "` |"), std::string::npos) << kind.key;
+    for (TreatmentInput const& input : treatment_inputs())
+        EXPECT_NE(page.find("| `" + std::string{input.key} + "` |"), std::string::npos) << input.key;
 }

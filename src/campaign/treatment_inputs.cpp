@@ -1,0 +1,72 @@
+#include "treatment_inputs.h"
+
+#include "plan_reading.h"
+
+#include <lore/core/error.h>
+#include <lore/experiment/config.h>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+// ---- knowledge = "kb1": a base for the reward ----
+
+/// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
+KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
+    if (!row_of(knowledge.kind).is_built) return windows_of(plan, plan.knowledge_base(knowledge.base));
+    KnowledgeConfig config = read_config(plan.config_path(plan.source), plan.source.overrides).knowledge;
+    config.window_length = knowledge.window_length.value_or(config.window_length);
+    if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);
+    return config;
+}
+
+/// Has a treatment's runs read the windows of its base, unless its configuration does so already.
+void fit_windows(TomlTable const& table, std::string const& config_path, Treatment& treatment,
+                 KnowledgeConfig const& base) {
+    if (read_windows(table, config_path, {}) != base)
+        treatment.overrides.insert(treatment.overrides.begin(),
+                                   {fmt::format("knowledge.window_length={}", base.window_length),
+                                    fmt::format("knowledge.match_threshold={}", base.match_threshold)});
+    KnowledgeConfig const read = read_windows(table, config_path, treatment.overrides);
+    if (read != base)
+        table.fail("set",
+                   fmt::format("it asks for windows of {} steps and threshold {}, and '{}' has {} and {}",
+                               read.window_length, read.match_threshold, treatment.knowledge, base.window_length,
+                               base.match_threshold),
+                   "Leave them out: a treatment takes those of its base.");
+}
+
+void fit_knowledge(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
+    std::vector<std::string> bases;
+    for (KnowledgePlan const& knowledge : plan.knowledge) bases.push_back(knowledge.name);
+    require_known(table, "knowledge", treatment.knowledge, bases);
+    fit_windows(table, plan.config_path(treatment), treatment,
+                windows_of(plan, plan.knowledge_base(treatment.knowledge)));
+}
+
+std::vector<std::string> after_knowledge(Treatment const& treatment, std::vector<Step>&) {
+    return {knowledge_step(treatment.knowledge)};
+}
+
+std::vector<std::string> knowledge_arguments(Treatment const& treatment, CommandContext const& context) {
+    return {"--kb", context.directory.knowledge(treatment.knowledge)};
+}
+
+constexpr TreatmentInput inputs[] = {
+    {"knowledge", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments},
+};
+
+}   // namespace
+
+std::span<TreatmentInput const> treatment_inputs() { return inputs; }
+
+KnowledgeConfig read_windows(TomlTable const& table, std::string const& config_path,
+                             std::vector<std::string> const& overrides) {
+    try {
+        return read_config(config_path, overrides).knowledge;
+    } catch (Error const& error) { table.fail(table.has("set") ? "set" : "config", error.what()); }
+}
+
+}   // namespace lore

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "knowledge_kinds.h"
+
+#include <lore/campaign/plan.h>
+#include <lore/experiment/config.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lore {
+
+/// Something that the runs of a treatment take from other steps of the campaign, named by one key of [[treatment]].
+/// A new input is a member of Treatment, one row of the table in treatment_inputs.cpp, and the functions that the row
+/// names; nothing else asks which inputs there are.
+struct TreatmentInput {
+    std::string_view key;
+    std::string Treatment::*name;   ///< what the key says; empty: the treatment does without
+    /// Throws UsageError if the campaign, as read so far, has nothing of that name or nothing that fits; may add
+    /// overrides to the treatment.
+    void (*fit)(TomlTable const&, CampaignPlan const&, Treatment&);
+    /// Adds the steps that this treatment alone needs before its runs, and returns the groups that the runs wait for.
+    std::vector<std::string> (*prepare)(Treatment const&, std::vector<Step>&);
+    /// Of lore-evolve, after all others.
+    std::vector<std::string> (*arguments)(Treatment const&, CommandContext const&);
+};
+
+std::span<TreatmentInput const> treatment_inputs();
+
+/// Knowledge settings of a treatment's configuration with these overrides. Throws UsageError, which names the
+/// campaign's file, for a mistake in the configuration.
+KnowledgeConfig read_windows(TomlTable const&, std::string const& config_path,
+                             std::vector<std::string> const& overrides);
+
+}   // namespace lore
