@@ -42,20 +42,32 @@ KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, 
     return KnowledgeBase{base.config(), std::move(provenance), std::move(kept)};
 }
 
+/// The same features with other values.
+KnowledgeBase with_values(KnowledgeBase const& base, std::vector<double> values, char const* kind, std::string what) {
+    KnowledgeArrays arrays{copy_of(base.parts().bits), copy_of(base.parts().windows), std::move(values),
+                           copy_of(base.parts().reward_sums), copy_of(base.parts().counts)};
+    Provenance provenance = base.provenance();
+    provenance.kind = kind;
+    provenance.derivation.push_back(std::move(what));
+    return KnowledgeBase{base.config(), std::move(provenance), std::move(arrays)};
+}
+
 }   // namespace
 
 KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed) {
-    KnowledgeArrays arrays{copy_of(base.parts().bits), copy_of(base.parts().windows), copy_of(base.values()),
-                           copy_of(base.parts().reward_sums), copy_of(base.parts().counts)};
+    std::vector<double> values = copy_of(base.values());
     if (base.size() > 0) {
         auto const [low, high] = std::minmax_element(base.values().begin(), base.values().end());
         Stream rng{seed, Purpose::randomize};
-        for (double& value : arrays.values) value = rng.uniform(*low, *high);
+        for (double& value : values) value = rng.uniform(*low, *high);
     }
-    Provenance provenance = base.provenance();
-    provenance.kind = "random";
-    provenance.derivation.push_back(fmt::format("values drawn at random with seed {}", seed));
-    return KnowledgeBase{base.config(), std::move(provenance), std::move(arrays)};
+    return with_values(base, std::move(values), "random", fmt::format("values drawn at random with seed {}", seed));
+}
+
+KnowledgeBase permute(KnowledgeBase const& base, std::uint64_t seed) {
+    std::vector<double> values = copy_of(base.values());
+    Stream{seed, Purpose::permute}.shuffle(std::span{values});
+    return with_values(base, std::move(values), "permuted", fmt::format("values shuffled with seed {}", seed));
 }
 
 KnowledgeBase keep_top(KnowledgeBase const& base, int count) {

@@ -198,85 +198,112 @@ LORE_INLINE int near_keys(Key const* keys, std::int32_t const* numbers, int coun
     return found;
 }
 
-/// As the search goes on, the best so far leaves less and less room for a better one.
-Nearest closest(GrowingView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
-    Shape const& shape = view.shape;
-    auto const size = static_cast<std::size_t>(record_size(shape.words));
-    std::size_t const value_count = static_cast<std::size_t>(shape.window_length) * continuous_count;
-    auto const record_of = [&](std::int32_t feature) {
-        return view.records + static_cast<std::size_t>(feature) * size;
-    };
+/// One question to a growing set. As the search goes on, the best so far leaves less and less room for a better one.
+struct GrowingSearch {
+    GrowingView const& view;
+    Query const& query;
+    Digest const& summary;
+    Key const& key;
+    Scratch scratch;
+    Nearest best;
 
-    // The smallest bucket first: often one is enough.
-    for (int table = 0; table < shape.tables; ++table) {
-        std::uint64_t const slot =
-            hash_slot(query.words, view.tables.masks + table * shape.words, shape.words, view.tables.slot_bits);
-        Bucket const bucket = view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
-        __builtin_prefetch(view.keys + bucket.start);
-        __builtin_prefetch(view.numbers + bucket.start);
-        int place = table;
-        for (; place > 0 && scratch.visits[place - 1].bucket.count > bucket.count; --place)
-            scratch.visits[place] = scratch.visits[place - 1];
-        scratch.visits[place] = {bucket, table};
+    LORE_INLINE Shape const& shape() const { return view.shape; }
+    LORE_INLINE int value_count() const { return shape().window_length * continuous_count; }
+    LORE_INLINE std::uint64_t const* record_of(std::int32_t feature) const {
+        return view.records + static_cast<std::size_t>(feature) * static_cast<std::size_t>(record_size(shape().words));
+    }
+    LORE_INLINE float const* values_of(std::int32_t feature) const {
+        return view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count());
+    }
+    LORE_INLINE int differing_bits(std::uint64_t const* record) const {
+        int differing = 0;
+        for (int word = 0; word < shape().words; ++word)
+            differing += __builtin_popcountll(query.words[word] ^ record[word]);
+        return differing;
+    }
+    /// Bits in which a better one may differ. In float first: a threshold may be beyond any int.
+    LORE_INLINE int most_bits() const {
+        return best.squared_distance < static_cast<float>(shape().most_differing)
+                   ? static_cast<int>(best.squared_distance)
+                   : shape().most_differing;
+    }
+    /// What the continuous channels of a better one that differs in so many bits may add to its squared distance.
+    LORE_INLINE float left(int differing) const {
+        return best.squared_distance * (1 + shape().relative_error) - static_cast<float>(differing);
+    }
+    LORE_INLINE void compare(std::int32_t feature) {
+        int const differing = differing_bits(record_of(feature));
+        take_if_nearer(best, feature,
+                       continuous_distance(query.values, values_of(feature), value_count()) +
+                           static_cast<float>(differing));
     }
 
-    Nearest best{-1, shape.squared_threshold};
-    auto const compare = [&](std::int32_t feature) {
-        std::uint64_t const* const record = record_of(feature);
-        int differing = 0;
-        for (int word = 0; word < shape.words; ++word)
-            differing += __builtin_popcountll(query.words[word] ^ record[word]);
-        float const* const values = view.values + static_cast<std::size_t>(feature) * value_count;
-        take_if_nearer(best, feature,
-                       continuous_distance(query.values, values, static_cast<int>(value_count)) +
-                           static_cast<float>(differing));
-    };
-    // Such a feature has been seen in one of the first `visits` buckets.
-    auto const shares_a_block = [&](std::uint64_t const* record, int visits) {
+    /// Puts the window's buckets into the order of their sizes, the smallest first: often one is enough.
+    LORE_INLINE void order_visits() {
+        for (int table = 0; table < shape().tables; ++table) {
+            std::uint64_t const slot =
+                hash_slot(query.words, view.tables.masks + table * shape().words, shape().words, view.tables.slot_bits);
+            Bucket const bucket =
+                view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
+            __builtin_prefetch(view.keys + bucket.start);
+            __builtin_prefetch(view.numbers + bucket.start);
+            int place = table;
+            for (; place > 0 && scratch.visits[place - 1].bucket.count > bucket.count; --place)
+                scratch.visits[place] = scratch.visits[place - 1];
+            scratch.visits[place] = {bucket, table};
+        }
+    }
+
+    /// Such a feature has been seen in one of the first `visits` buckets.
+    LORE_INLINE bool shares_a_block(std::uint64_t const* record, int visits) const {
         for (int visit = 0; visit < visits; ++visit) {
-            std::uint64_t const* const mask = view.tables.masks + scratch.visits[visit].table * shape.words;
+            std::uint64_t const* const mask = view.tables.masks + scratch.visits[visit].table * shape().words;
             std::uint64_t differing = 0;
-            for (int word = 0; word < shape.words; ++word) differing |= (query.words[word] ^ record[word]) & mask[word];
+            for (int word = 0; word < shape().words; ++word)
+                differing |= (query.words[word] ^ record[word]) & mask[word];
             if (differing == 0) return true;
         }
         return false;
-    };
-    std::int32_t& recent = scratch.recent[hash_slot(query.words, nullptr, shape.words, recent_bits)];
-    if (recent >= 0) compare(recent);
-    for (int seen = 0; seen < shape.tables; ++seen) {
-        // Whoever is in none of the buckets seen so far differs in a bit of each of their blocks.
-        if (best.squared_distance < static_cast<float>(seen)) break;
-        auto const most_bits = [&] {   // in float first: a threshold may be beyond any int
-            return best.squared_distance < static_cast<float>(shape.most_differing)
-                       ? static_cast<int>(best.squared_distance)
-                       : shape.most_differing;
-        };
-        auto const left = [&](int differing) {
-            return best.squared_distance * (1 + shape.relative_error) - static_cast<float>(differing);
-        };
-        Bucket const bucket = scratch.visits[seen].bucket;
+    }
+
+    /// Writes the features of a bucket that may be better to scratch.numbers, and returns how many. `visit` buckets
+    /// were seen before.
+    LORE_INLINE int sift(int visit) {
+        Bucket const bucket = scratch.visits[visit].bucket;
         int const count =
             near_keys(view.keys + bucket.start, view.numbers + bucket.start, static_cast<int>(bucket.count), key,
-                      most_bits(), shape.key_bound.largest(left(0)), scratch.numbers);
+                      most_bits(), shape().key_bound.largest(left(0)), scratch.numbers);
         for (int i = 0; i < count; ++i) __builtin_prefetch(record_of(scratch.numbers[i]));
         int kept = 0;
         for (int i = 0; i < count; ++i) {
             std::uint64_t const* const record = record_of(scratch.numbers[i]);
-            int differing = 0;
-            for (int word = 0; word < shape.words; ++word)
-                differing += __builtin_popcountll(query.words[word] ^ record[word]);
-            if (differing > most_bits() || shares_a_block(record, seen)) continue;
+            int const differing = differing_bits(record);
+            if (differing > most_bits() || shares_a_block(record, visit)) continue;
             Digest digest;
-            std::memcpy(&digest, record + shape.words, sizeof digest);
-            if (summary_distance(summary, digest) > shape.summary_bound.largest(left(differing))) continue;
-            float const* const values = view.values + static_cast<std::size_t>(digest.feature) * value_count;
-            for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
+            std::memcpy(&digest, record + shape().words, sizeof digest);
+            if (summary_distance(summary, digest) > shape().summary_bound.largest(left(differing))) continue;
+            float const* const values = values_of(digest.feature);
+            for (int at = 0; at < value_count(); at += 16) __builtin_prefetch(values + at);
             scratch.numbers[kept++] = digest.feature;
         }
-        for (int i = 0; i < kept; ++i) compare(scratch.numbers[i]);
+        return kept;
     }
-    if (best.feature >= 0) recent = best.feature;
-    return best;
+};
+
+Nearest closest(GrowingView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
+    Shape const& shape = view.shape;
+    GrowingSearch search{view, query, summary, key, scratch, {-1, shape.squared_threshold}};
+    search.order_visits();
+    std::int32_t& recent = scratch.recent[hash_slot(query.words, nullptr, shape.words, recent_bits)];
+    if (recent >= 0) search.compare(recent);
+    for (int visit = 0; visit < shape.tables; ++visit) {
+        // A feature in none of the buckets seen so far differs in a bit of each of their blocks.
+        if (search.best.squared_distance < static_cast<float>(visit)) break;
+        int const kept = search.sift(visit);
+        for (int i = 0; i < kept; ++i) search.compare(scratch.numbers[i]);
+    }
+    if (search.best.feature >= 0) recent = search.best.feature;
+    return search.best;
 }
 
 /// FixedWords: the number of words if it is known when compiling, else 0.

@@ -125,6 +125,10 @@ TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
 TEST_F(LoreKb, derives_and_multiplies) {
     expect_done("build run --out kb.lorekb");
     expect_done("randomize kb.lorekb --seed 3 --out random.lorekb");
+    expect_done("randomize kb.lorekb --permute --seed 3 --out permuted.lorekb");
+    KnowledgeBase const permuted = read_knowledge_base(scratch.file("permuted.lorekb"));
+    EXPECT_EQ(permuted.provenance().kind, "permuted");
+    EXPECT_THAT(permuted.provenance().derivation.back(), HasSubstr("shuffled with seed 3"));
     expect_done("reduce random.lorekb --top 2 --out top.lorekb");
     KnowledgeBase const top = read_knowledge_base(scratch.file("top.lorekb"));
     EXPECT_EQ(top.size(), 2);

@@ -16,6 +16,7 @@ enum class Purpose : std::uint32_t {
     tie = 5,          ///< order among equals in sorts and cuts
     randomize = 6,    ///< values of a "KB random"
     bootstrap = 7,    ///< resampling for confidence bands
+    permute = 8,      ///< which feature gets which value of a permuted knowledge base
     test = 99         ///< inputs of property tests
 };
 

@@ -5,11 +5,14 @@
 namespace lore {
 
 /// Knowledge bases made from knowledge bases. Each returns a new one with the old one's provenance, to whose derivation
-/// it adds a line; kind becomes "random" or "reduced".
+/// it adds a line; kind becomes "random", "permuted" or "reduced".
 
 /// "KB random": values uniform between the smallest and the largest value of `base`, drawn in the order of the
 /// features from the stream (seed, randomize). Reward sums and counts stay what they were.
 KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed);
+/// "KB permuted": the values of `base`, shuffled among its features by the stream (seed, permute). Where randomize
+/// makes every value its own, this keeps how many features share one. Reward sums and counts stay what they were.
+KnowledgeBase permute(KnowledgeBase const& base, std::uint64_t seed);
 /// The `count` features of highest value (ties: the lower number), in their old order.
 KnowledgeBase keep_top(KnowledgeBase const& base, int count);
 KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value);

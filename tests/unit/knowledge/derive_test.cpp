@@ -47,6 +47,43 @@ TEST(Randomize, is_a_function_of_the_seed) {
     EXPECT_NE(values_of(randomize(four, 7)), values_of(randomize(four, 8)));
 }
 
+TEST(Permute, gives_the_same_values_to_other_features) {
+    Stream rng{3, Purpose::test};
+    for (int round = 0; round < 200; ++round) {
+        std::size_t const size = rng.below(40);
+        Trace trace;
+        std::vector<double> values;
+        for (std::size_t i = 0; i < size; ++i) {
+            trace.bits.push_back(static_cast<std::uint16_t>(i));
+            trace.values.insert(trace.values.end(), continuous_count, 0.5f);
+            values.push_back(rng.below(4));   // many equal ones
+        }
+        KnowledgeBase const base{
+            {1, 1.83f}, {}, {trace.bits, trace.values, values, values, std::vector<std::uint32_t>(size, 1)}};
+        KnowledgeBase const permuted = permute(base, static_cast<std::uint64_t>(round));
+        std::vector<double> sorted = values_of(permuted);
+        std::sort(sorted.begin(), sorted.end());
+        std::sort(values.begin(), values.end());
+        EXPECT_EQ(sorted, values);
+        for (int i = 0; i < permuted.size(); ++i) {
+            EXPECT_EQ(permuted.window(i).bits[0], base.window(i).bits[0]);
+            EXPECT_EQ(permuted.reward_sum(i), base.reward_sum(i));
+        }
+    }
+}
+
+TEST(Permute, is_a_function_of_the_seed_and_says_so_in_the_provenance) {
+    std::vector<double> const distinct{0, 1, 2, 3, 4, 5, 6, 7};
+    KnowledgeBase const base = base_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0}, {7, 0}}, distinct);
+    KnowledgeBase const permuted = permute(base, 7);
+    EXPECT_EQ(values_of(permuted), values_of(permute(base, 7)));
+    EXPECT_NE(values_of(permuted), values_of(permute(base, 8)));
+    EXPECT_NE(values_of(permuted), distinct);
+    EXPECT_NE(values_of(permuted), values_of(randomize(base, 7)));
+    EXPECT_EQ(permuted.provenance().kind, "permuted");
+    EXPECT_EQ(permuted.provenance().derivation, std::vector<std::string>{"values shuffled with seed 7"});
+}
+
 TEST(KeepTop, keeps_the_most_valued_with_the_lower_number_first_among_equals_in_the_old_order) {
     EXPECT_EQ(values_of(keep_top(four, 3)), (std::vector<double>{2.0, 5.0, 5.0}));
     KnowledgeBase const one = keep_top(four, 1);

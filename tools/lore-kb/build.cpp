@@ -1,0 +1,80 @@
+#include "command.h"
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/core/error.h>
+#include <lore/core/progress.h>
+#include <lore/evolution/lineage.h>
+#include <lore/experiment/knowledge_building.h>
+
+#include <fmt/format.h>
+
+namespace lore::kb {
+
+namespace {
+
+struct Options {
+    std::string run, out, index = "exact";
+    std::optional<std::string> individual;
+    bool all = false;
+    int every = 1;   ///< of all
+    std::optional<int> window_length;
+    std::optional<float> threshold;
+};
+
+KnowledgeConfig config_of(Options const& options, RunDirectory const& run) {
+    KnowledgeConfig config = run.config.knowledge;
+    config.window_length = options.window_length.value_or(config.window_length);
+    config.match_threshold = options.threshold.value_or(config.match_threshold);
+    if (config.window_length > run.config.episode.steps)
+        throw UsageError(fmt::format("cannot build with windows of {} steps", config.window_length),
+                         fmt::format("an evaluation of this run has {}", run.config.episode.steps),
+                         "Give a shorter --window-length.");
+    return config;
+}
+
+void build(Program const& program, Options const& options) {
+    if (options.all && options.individual)
+        throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
+    check_writable(options.out);
+    IndexKind const kind = index_kind(options.index);
+    RunDirectory const run = open_run(options.run);
+    KnowledgeConfig const config = config_of(options, run);
+    auto const individual = run.individual(options.individual.value_or("best"));
+    auto const total = static_cast<std::int64_t>(
+        options.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(options.every) + 1
+                    : lineage_of(*individual).size());
+    Progress progress{"building", total, "individuals", options.all ? 20000 : 500, program.quiet};
+    BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) {
+        progress.update(done, fmt::format("{} features", features));
+    };
+    Provenance provenance;
+    provenance.made_by = made_by(program);
+    KnowledgeBase const base = options.all ? knowledge_of_all(run, options.every, config, kind, provenance, observe)
+                                           : knowledge_of_lineage(run, *individual, config, kind, provenance, observe);
+    write_knowledge_base(options.out, base);
+    say(program, fmt::format("wrote {}: {} features from {} windows of {} individuals", options.out, base.size(),
+                             base.provenance().windows, base.provenance().individuals));
+}
+
+}   // namespace
+
+void add_build(CLI::App& app, Program& program) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command = add_command(app, program, "build", "Build a knowledge base from a run", options, build);
+    command->add_option("RUN_DIR", options->run, "directory of a run")->required();
+    add_out(command, options->out);
+    add_individual(command, options->individual);
+    add_index(command, options->index);
+    auto* const all = command->add_flag(
+        "--all", options->all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
+    command->add_option("--every", options->every, "of all, only the first and every N-th after it")
+        ->check(CLI::Range(1, 1000000000))
+        ->needs(all);
+    command->add_option("--window-length", options->window_length, "steps a window; default: the run's")
+        ->check(CLI::Range(1, longest_window));
+    command->add_option("--threshold", options->threshold, "distance below which a window matches; default: the run's")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->check(a_number);
+}
+
+}   // namespace lore::kb

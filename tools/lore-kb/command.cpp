@@ -1,0 +1,78 @@
+#include "command.h"
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/core/error.h>
+#include <lore/experiment/version.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace lore::kb {
+
+CLI::Validator const a_number{[](std::string& text) {
+                                  return std::isnan(std::strtod(text.c_str(), nullptr))
+                                             ? fmt::format("'{}' is no number", text)
+                                             : std::string{};
+                              },
+                              ""};
+
+void add_base(CLI::App* command, std::string& path) { command->add_option("KB", path, "knowledge base")->required(); }
+
+void add_out(CLI::App* command, std::string& path) {
+    command->add_option("--out", path, "knowledge base to write")->required();
+}
+
+void add_index(CLI::App* command, std::string& name) {
+    command->add_option("--index", name, "exact, or flann: approximate, and not repeatable from run to run")
+        ->capture_default_str();
+}
+
+void add_individual(CLI::App* command, std::optional<std::string>& id) {
+    command->add_option("--individual", id, "'best', or GENERATION.SLOT")->type_name("ID")->default_str("best");
+}
+
+std::string made_by(Program const& program) {
+    BuildInformation const build = build_information();
+    return fmt::format("{} (Lore {}, commit {})", program.command_line, build.version, build.commit);
+}
+
+void say(Program const& program, std::string const& line) {
+    if (!program.quiet) fmt::print("{}\n", line);
+}
+
+void check_writable(std::string const& path) {
+    std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
+    std::string const place = directory.empty() ? "." : directory.string();
+    if (std::filesystem::is_directory(path))
+        throw UsageError(fmt::format("cannot write {}", path), "it is a directory", "Name a file in it.");
+    if (!directory.empty() && !std::filesystem::is_directory(directory))
+        throw UsageError(fmt::format("cannot write {}", path),
+                         fmt::format("there is no directory {}", directory.string()), "Make it first.");
+    if (::access(place.c_str(), W_OK) != 0)
+        throw Error(fmt::format("cannot write {}", path), fmt::format("{}: {}", place, std::strerror(errno)),
+                    "Choose a place where you may write.");
+}
+
+Trace trace_of(RunDirectory const& run, std::string const& individual) {
+    return record_episode(run.arena, compile(run.individual(individual)->genome), run.config.episode);
+}
+
+void write_derived(Program const& program, std::string const& out, KnowledgeBase const& derived,
+                   std::vector<std::string> const& sources) {
+    KnowledgeBase::Parts parts = derived.parts();
+    parts.provenance.made_by = made_by(program);
+    parts.provenance.derivation.insert(parts.provenance.derivation.end() - 1,
+                                       fmt::format("read from {}", fmt::join(sources, ", ")));
+    write_knowledge_base(out, KnowledgeBase{std::move(parts)});
+    say(program, fmt::format("wrote {}: {} features", out, derived.size()));
+}
+
+}   // namespace lore::kb

@@ -1,0 +1,74 @@
+#include "command.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/archive/knowledge_file.h>
+#include <lore/core/error.h>
+#include <lore/knowledge/shaping.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore::kb {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> bases;
+    std::string run, csv;
+    std::optional<std::string> individual;
+};
+
+/// One a base. Throws UsageError unless all have one window length.
+std::vector<Shaper> shapers_of(std::vector<std::string> const& paths) {
+    std::vector<Shaper> shapers;
+    for (std::string const& path : paths) {
+        shapers.emplace_back(read_knowledge_base(path));
+        int const length = shapers.front().base().config().window_length;
+        if (shapers.back().base().config().window_length != length)
+            throw UsageError(
+                fmt::format("cannot combine {} with {}", path, paths.front()),
+                fmt::format("windows of {} and of {} steps", shapers.back().base().config().window_length, length),
+                "Give knowledge bases of one window length.");
+    }
+    return shapers;
+}
+
+void product(Program const& program, Options const& options) {
+    check_writable(options.csv);
+    Trace const trace = trace_of(open_run(options.run), options.individual.value_or("best"));
+    std::vector<Shaper> const shapers = shapers_of(options.bases);
+    std::string csv = "window,step,product";
+    for (std::size_t i = 1; i <= shapers.size(); ++i) fmt::format_to(std::back_inserter(csv), ",value_{}", i);
+    csv += '\n';
+    int const length = shapers.front().base().config().window_length;
+    int row = 0, salient = 0;
+    for (Window const& window : windows_of(trace, length)) {
+        std::vector<double> values;
+        double all = 1;
+        for (Shaper const& shaper : shapers) {
+            Match const match = shaper.match(window);
+            values.push_back(match.found() ? shaper.base().value(match.feature) : no_feature_value);
+            all *= match.found() ? values.back() : 0;
+        }
+        salient += all != 0;
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", row, row * length, all, fmt::join(values, ","));
+        ++row;
+    }
+    write_file_atomically(options.csv, csv);
+    say(program, fmt::format("wrote {}: {} of {} windows have a product other than 0", options.csv, salient, row));
+}
+
+}   // namespace
+
+void add_product(CLI::App& app, Program& program) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        add_command(app, program, "product", "Multiply the values of several knowledge bases along an evaluation",
+                    options, product);
+    command->add_option("KB", options->bases, "knowledge bases")->required()->expected(1, 1000);
+    command->add_option("--run", options->run, "run whose individual is evaluated")->required();
+    add_individual(command, options->individual);
+    command->add_option("--csv", options->csv, "file to write: window,step,product,value_1,value_2,...")->required();
+}
+
+}   // namespace lore::kb
