@@ -29,7 +29,7 @@ constexpr int most_curve_points = 401;
 
 struct FinishedRun {
     RunRow row;
-    std::vector<ProgressRow> progress;   ///< by generation, from 0
+    std::vector<GenerationSummary> progress;   ///< by generation, from 0
     int length() const { return static_cast<int>(progress.size()); }
 };
 
@@ -48,7 +48,7 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
         if (state_of(plan, directory, step, Locks::ignored).status != StepStatus::done) continue;
         std::string const path = directory.run(step.name);
         Manifest const manifest = read_manifest((fs::path{path} / run_file::manifest).string());
-        std::vector<ProgressRow> progress = read_progress((fs::path{path} / run_file::progress).string());
+        std::vector<GenerationSummary> progress = read_progress((fs::path{path} / run_file::progress).string());
         if (progress.empty())
             throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut",
                         "Remove the run to make it again.");
@@ -103,10 +103,11 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
                 sum += static_cast<double>(run.progress[static_cast<std::size_t>(generation)].*column);
             return sum / static_cast<double>(runs.size());
         };
-        rows.push_back({treatment.name, generation, static_cast<int>(runs.size()), mean_of(&ProgressRow::mean_balls),
-                        mean_of(&ProgressRow::fronts), mean_of(&ProgressRow::tied), mean_of(&ProgressRow::best_shaping),
-                        mean_of(&ProgressRow::shaping_at_max), mean_of(&ProgressRow::mean_connections),
-                        mean_of(&ProgressRow::mean_hidden)});
+        rows.push_back({treatment.name, generation, static_cast<int>(runs.size()),
+                        mean_of(&GenerationSummary::mean_balls), mean_of(&GenerationSummary::fronts),
+                        mean_of(&GenerationSummary::tied), mean_of(&GenerationSummary::best_shaping),
+                        mean_of(&GenerationSummary::shaping_at_max), mean_of(&GenerationSummary::mean_connections),
+                        mean_of(&GenerationSummary::mean_hidden)});
     }
     return rows;
 }

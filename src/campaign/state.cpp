@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -36,16 +35,15 @@ std::string text(FailureRecord const& failure) {
 }
 
 /// Settings of a finished run that differ from the plan and change its results.
-std::vector<std::string> other_settings(CampaignPlan const& plan, Treatment const& treatment, std::string const& run) {
+std::vector<SettingDifference> other_settings(CampaignPlan const& plan, Treatment const& treatment,
+                                              std::string const& run) {
     ExperimentConfig planned = read_config(plan.config_path(treatment), treatment.overrides);
     ExperimentConfig made = read_config(in(run, run_file::config));
-    // A knowledge base on the command line turns the objective on; where the arena's copy lies is told by nothing here.
+    // A knowledge base on the command line turns the objective on.
     planned.evolution.use_shaping = made.evolution.use_shaping = !treatment.knowledge.empty();
-    made.arena = planned.arena;
-    made.name = planned.name;
-    made.checkpoint_generations = planned.checkpoint_generations;
-    made.checkpoint_minutes = planned.checkpoint_minutes;
-    return differing_settings(planned, made);
+    auto differences = differing_settings(made, planned);
+    std::erase_if(differences, [](SettingDifference const& one) { return one.affects == Affects::nothing; });
+    return differences;
 }
 
 StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
@@ -77,8 +75,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             return say(StepStatus::failed,
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
         if (auto const others = other_settings(plan, treatment, run); !others.empty())
-            return say(StepStatus::failed,
-                       fmt::format("it was made with another {}: move {} away", fmt::join(others, ", "), run));
+            return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
         if (!fs::exists(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
         return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
@@ -217,25 +214,8 @@ StepLock::~StepLock() {
 }
 
 RunProgress last_progress(std::string const& run_directory) {
-    std::ifstream file{in(run_directory, run_file::progress), std::ios::binary | std::ios::ate};
-    if (!file) return {};
-    std::streamoff const size = file.tellg();
-    std::streamoff const start = std::max<std::streamoff>(0, size - 2048);   // a row is some 120 bytes
-    std::string tail(static_cast<std::size_t>(size - start), '\0');
-    file.seekg(start);
-    file.read(tail.data(), size - start);
-    std::size_t const end = tail.rfind('\n');
-    if (end == std::string::npos || end == 0) return {};
-    std::size_t const begin = tail.rfind('\n', end - 1) + 1;   // npos + 1 is 0
-    std::string_view const row{tail.data() + begin, end - begin};
-
-    RunProgress progress;
-    char const* const last = row.data() + row.size();
-    auto const generation = std::from_chars(row.data(), last, progress.generation);
-    if (generation.ec != std::errc{} || generation.ptr == last || *generation.ptr != ',') return {};   // the header
-    std::from_chars(generation.ptr + 1, last, progress.best_balls);
-    std::from_chars(row.data() + row.rfind(',') + 1, last, progress.seconds);
-    return progress;
+    auto const row = read_last_progress(in(run_directory, run_file::progress));
+    return row ? RunProgress{row->generation, row->best_balls, row->seconds} : RunProgress{};
 }
 
 }   // namespace lore

@@ -35,9 +35,8 @@ GenerationSummary summarize(GenerationReport const& report) {
     for (auto const& [objectives, sharers] : sharing)
         if (sharers > 1) summary.tied += sharers;
 
-    summary.evaluations = static_cast<std::int64_t>(report.born.size());
-    for (Individual const& child : report.born)
-        summary.steps += static_cast<std::int64_t>(child.descriptors->bits.size());
+    summary.evaluations = report.born.size();
+    for (Individual const& child : report.born) summary.steps += child.descriptors->bits.size();
     return summary;
 }
 

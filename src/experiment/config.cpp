@@ -6,10 +6,12 @@
 #include <lore/core/error.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 namespace lore {
 
@@ -155,13 +157,35 @@ std::string to_toml(ExperimentConfig const& config) {
     return text;
 }
 
-std::vector<std::string> differing_settings(ExperimentConfig const& a, ExperimentConfig const& b) {
-    ExperimentConfig left = a, right = b;
-    auto const of_a = settings_of(left), of_b = settings_of(right);
-    std::vector<std::string> keys;
+std::vector<SettingDifference> differing_settings(ExperimentConfig const& left, ExperimentConfig const& right) {
+    ExperimentConfig a = left, b = right;
+    auto const of_a = settings_of(a), of_b = settings_of(b);
+    std::vector<SettingDifference> differences;
     for (std::size_t i = 0; i < of_a.size(); ++i)
-        if (of_a[i].text() != of_b[i].text()) keys.push_back(of_a[i].full_key());
-    return keys;
+        if (std::string ours = of_a[i].text(), theirs = of_b[i].text(); ours != theirs)
+            differences.push_back({of_a[i].full_key(), std::move(ours), std::move(theirs), of_a[i].affects});
+    return differences;
+}
+
+std::vector<SettingDifference> differing_result_settings(ExperimentConfig const& left, ExperimentConfig const& right) {
+    auto differences = differing_settings(left, right);
+    std::erase_if(differences, [](SettingDifference const& one) { return one.affects != Affects::results; });
+    return differences;
+}
+
+std::string text(std::vector<SettingDifference> const& differences) {
+    std::vector<std::string> texts;
+    for (SettingDifference const& one : differences)
+        texts.push_back(fmt::format("{} = {}, not {}", one.key, one.left, one.right));
+    return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::string result_settings(ExperimentConfig const& config) {
+    std::vector<std::string> lines;
+    for (SettingDifference const& one : differing_result_settings(config, {}))
+        lines.push_back(fmt::format("{} = {}\n", one.key, one.left));
+    std::sort(lines.begin(), lines.end());
+    return fmt::format("{}", fmt::join(lines, ""));
 }
 
 }   // namespace lore

@@ -138,8 +138,12 @@ FileRecord record_of(std::string const& role, std::string const& path, std::stri
 }
 
 FileRecord const* find_role(std::vector<FileRecord> const& files, std::string_view role) {
-    auto const found =
-        std::find_if(files.begin(), files.end(), [&](FileRecord const& file) { return file.role == role; });
+    auto const found = std::find_if(files.begin(), files.end(), [&](auto const& file) { return file.role == role; });
+    return found == files.end() ? nullptr : &*found;
+}
+
+FileRecord const* find_path(std::vector<FileRecord> const& files, std::string_view path) {
+    auto const found = std::find_if(files.begin(), files.end(), [&](auto const& file) { return file.path == path; });
     return found == files.end() ? nullptr : &*found;
 }
 

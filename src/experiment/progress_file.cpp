@@ -1,16 +1,16 @@
 #include <lore/experiment/progress_file.h>
 
+#include "progress_columns.h"
+
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
-#include <lore/evolution/summary.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <string_view>
+#include <fstream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -20,44 +20,18 @@ namespace lore {
 
 namespace {
 
-constexpr std::string_view header =
-    "generation,best_balls,mean_balls,distance,mean_diversity,best_shaping,mean_connections,mean_hidden,fronts,tied,"
-    "shaping_at_max,evaluations,steps,seconds";
-
-/// Takes the fields of one line one after the other; false as soon as one is not what it should be.
-class Fields {
-public:
-    explicit Fields(std::string_view line) : rest_(line) {}
-
-    template <class Number>
-    bool take(Number& number) {
-        std::string_view const field = next();
-        auto const [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-        return error == std::errc{} && end == field.data() + field.size() &&
-               std::isfinite(static_cast<double>(number));   // "nan" is a number to it
-    }
-    bool take(DistanceKind& kind) {
-        try {
-            kind = distance_kind(next());
-            return true;
-        } catch (UsageError const&) { return false; }
-    }
-    bool at_end() const { return ended_; }
-
-private:
-    std::string_view next() {
-        std::size_t const comma = rest_.find(',');
-        std::string_view const field = rest_.substr(0, comma);
-        ended_ = comma == std::string_view::npos;
-        rest_.remove_prefix(ended_ ? rest_.size() : comma + 1);
-        return field;
-    }
-    std::string_view rest_;
-    bool ended_ = false;
-};
-
 [[noreturn]] void refuse(std::string const& path, std::string const& reason, std::string_view remedy) {
     throw Error(fmt::format("cannot read {}", path), reason, remedy);
+}
+
+/// A row has some 120 bytes.
+constexpr std::streamoff longest_tail = 2048;
+
+FileColumns columns_of(std::string_view header, std::string const& path) {
+    auto columns = columns_named(header);
+    if (!columns)
+        refuse(path, "its columns are not those of progress.csv, or those of a newer Lore", "Check the path.");
+    return *std::move(columns);
 }
 
 Error write_error(std::string const& path) {
@@ -66,18 +40,15 @@ Error write_error(std::string const& path) {
 
 }   // namespace
 
-std::string progress_header() { return std::string{header}; }
+std::string progress_header() { return header_of(all_columns()); }
 
-std::string text(ProgressRow const& row) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}", row.generation, row.best_balls, row.mean_balls,
-                       name(row.distance), row.mean_diversity, row.best_shaping, row.mean_connections, row.mean_hidden,
-                       row.fronts, row.tied, row.shaping_at_max, row.evaluations, row.steps, row.seconds);
-}
+std::string text(GenerationSummary const& row) { return row_text(all_columns(), row); }
 
-std::vector<ProgressRow> read_progress(std::string const& path) {
+std::vector<GenerationSummary> read_progress(std::string const& path) {
     auto const bytes = read_file(path);
     std::string_view rest{reinterpret_cast<char const*>(bytes.data()), bytes.size()};
-    std::vector<ProgressRow> rows;
+    FileColumns columns;
+    std::vector<GenerationSummary> rows;
     for (int line_number = 1;; ++line_number) {
         std::size_t const end = rest.find('\n');
         if (end == std::string_view::npos) {
@@ -87,40 +58,31 @@ std::vector<ProgressRow> read_progress(std::string const& path) {
         std::string_view const line = rest.substr(0, end);
         rest.remove_prefix(end + 1);
         if (line_number == 1) {
-            if (line != header) refuse(path, "its columns are not those of progress.csv", "Check the path.");
+            columns = columns_of(line, path);
             continue;
         }
-        Fields fields{line};
-        ProgressRow row;
-        bool const whole = fields.take(row.generation) && fields.take(row.best_balls) && fields.take(row.mean_balls) &&
-                           fields.take(row.distance) && fields.take(row.mean_diversity) &&
-                           fields.take(row.best_shaping) && fields.take(row.mean_connections) &&
-                           fields.take(row.mean_hidden) && fields.take(row.fronts) && fields.take(row.tied) &&
-                           fields.take(row.shaping_at_max) && fields.take(row.evaluations) && fields.take(row.steps) &&
-                           fields.take(row.seconds) && fields.at_end();
-        if (!whole || row.generation != static_cast<int>(rows.size()))
+        auto const row = row_from(columns, line);
+        if (!row || row->generation != static_cast<int>(rows.size()))
             refuse(path, fmt::format("line {} is damaged", line_number), "Take a copy that is whole.");
-        rows.push_back(row);
+        rows.push_back(*row);
     }
 }
 
-ProgressRow row_of(GenerationReport const& report) {
-    GenerationSummary const summary = summarize(report);
-    ProgressRow row;
-    row.generation = summary.generation;
-    row.best_balls = summary.best_balls;
-    row.mean_balls = summary.mean_balls;
-    row.distance = summary.distance;
-    row.mean_diversity = summary.mean_diversity;
-    row.best_shaping = summary.best_shaping;
-    row.mean_connections = summary.mean_connections;
-    row.mean_hidden = summary.mean_hidden;
-    row.fronts = summary.fronts;
-    row.tied = summary.tied;
-    row.shaping_at_max = summary.shaping_at_max;
-    row.evaluations = static_cast<std::uint64_t>(summary.evaluations);
-    row.steps = static_cast<std::uint64_t>(summary.steps);
-    return row;
+std::optional<GenerationSummary> read_last_progress(std::string const& path) {
+    std::ifstream file{path, std::ios::binary};
+    std::string header;
+    if (!std::getline(file, header)) return std::nullopt;
+    auto const columns = columns_named(header, progress_columns(), 0);   // a look at whatever is there
+    if (!columns) return std::nullopt;
+    std::streamoff const first_row = file.tellg();
+    std::streamoff const size = file.seekg(0, std::ios::end).tellg();
+    std::string tail(static_cast<std::size_t>(std::min(size - first_row, longest_tail)), '\0');
+    file.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    if (!file.read(tail.data(), static_cast<std::streamsize>(tail.size()))) return std::nullopt;
+    std::size_t const end = tail.rfind('\n');
+    if (end == std::string::npos || end == 0) return std::nullopt;
+    std::size_t const begin = tail.rfind('\n', end - 1) + 1;   // npos + 1 is 0
+    return row_from(*columns, std::string_view{tail}.substr(begin, end - begin));
 }
 
 ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(std::move(path)) {
@@ -137,7 +99,14 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(st
     if (!fresh && (::ftruncate(file_, static_cast<off_t>(bytes)) != 0 || ::lseek(file_, 0, SEEK_END) < 0))
         throw write_error(path_);
     bytes_ = bytes;
-    if (fresh) write(progress_header() + "\n");
+    if (fresh) {
+        columns_ = all_columns();
+        write(header_of(columns_) + "\n");
+    } else {
+        std::string header;
+        std::getline(std::ifstream{path_}, header);
+        columns_ = columns_of(header, path_);
+    }
 }
 
 ProgressWriter::~ProgressWriter() {
@@ -154,7 +123,7 @@ void ProgressWriter::write(std::string_view line) {
     }
 }
 
-void ProgressWriter::add(ProgressRow const& row) { write(text(row) + "\n"); }
+void ProgressWriter::add(GenerationSummary const& row) { write(row_text(columns_, row) + "\n"); }
 
 std::uint64_t ProgressWriter::sync() {
     if (::fsync(file_) != 0 && errno != EINVAL) throw write_error(path_);

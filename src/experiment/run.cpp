@@ -27,7 +27,7 @@ namespace {
 
 constexpr int generations_a_line = 100;   ///< of progress, where stderr is no terminal
 
-std::string describe(ProgressRow const& row, bool shaped) {
+std::string describe(GenerationSummary const& row, bool shaped) {
     std::string note =
         fmt::format("best {} balls, mean {:.2f}, {}", row.best_balls, row.mean_balls, name(row.distance));
     if (shaped) note += fmt::format(", shaping {:.2f}", row.best_shaping);
@@ -45,6 +45,20 @@ Error tell(EvaluationFailure const& failure, int generation, std::string const& 
     return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id),
                              failure.rank(), generation),
                  failure.reason(), remedy);
+}
+
+/// The exception that is being handled, as an Error.
+Error failure_in_hand(int generation, std::string const& genome_path) {
+    auto const of_rank_0 = [&](std::string const& reason, std::string_view remedy) {
+        return Error(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation), reason, remedy);
+    };
+    try {
+        throw;
+    } catch (EvaluationFailure const& failure) {
+        return tell(failure, generation, genome_path);
+    } catch (Error const& error) { return error; } catch (std::bad_alloc const&) {
+        return of_rank_0("out of memory", "Resume the run where there is more.");
+    } catch (std::exception const& error) { return of_rank_0(error.what(), "Resume the run."); }
 }
 
 /// Ends all ranks; the only way once replies are under way that nobody will take.
@@ -66,14 +80,56 @@ PreparedRun prepare_or_release(Session const& session, RunOptions const& options
 /// A finished run has nothing to do but to write its lineage again where that is lost or damaged.
 void mend_lineage(RunSetup const& setup) {
     std::string const path = setup.file(run_file::lineage);
-    auto const& outputs = setup.manifest.outputs;
-    auto const listed = std::find_if(outputs.begin(), outputs.end(),
-                                     [](FileRecord const& output) { return output.path == run_file::lineage; });
-    bool const whole =
-        std::filesystem::exists(path) &&
-        (listed == outputs.end() || record_of("output", path, listed->path).checksum == listed->checksum);
+    FileRecord const* const listed = find_path(setup.manifest.outputs, run_file::lineage);
+    bool const whole = std::filesystem::exists(path) &&
+                       (listed == nullptr || record_of(listed->role, path, listed->path).checksum == listed->checksum);
     if (!whole) write_lineage(path, setup.checkpoint->state.population);
 }
+
+RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason) {
+    return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation,
+            best_of_run(state.population).birth};
+}
+
+/// What happens after a generation: it is entered into the books and shown, and the run stops or goes on.
+class Supervisor {
+public:
+    /// `generation` is the last that is complete, or -1.
+    Supervisor(RunBooks& books, EvolutionConfig const& evolution, RunOptions const& options, Stopwatch const& watch,
+               int generation)
+        : books_(books), evolution_(evolution), options_(options), watch_(watch), generation_(generation),
+          progress_(options.directory, evolution.generations, "generations", generations_a_line, options.quiet) {
+        progress_.start_at(std::max(generation, 0));
+    }
+
+    /// Whether to go on.
+    bool after_generation(GenerationReport const& report) {
+        generation_ = report.generation;
+        selection_seconds_ += report.selection_seconds;
+        progress_.update(generation_, describe(books_.add(report), evolution_.use_shaping));
+        if (generation_ == evolution_.generations) return true;
+        stop_reason_ = stop_request();
+        if (stop_reason_.empty() && options_.max_seconds && watch_.total() >= *options_.max_seconds)
+            stop_reason_ = "time limit";
+        if (!stop_reason_.empty()) return false;
+        if (books_.checkpoint_is_due()) books_.write_checkpoint(*report.state);
+        return true;
+    }
+
+    int generation() const { return generation_; }
+    std::string const& stop_reason() const { return stop_reason_; }   ///< empty where nothing stopped the run
+    double selection_seconds() const { return selection_seconds_; }
+
+private:
+    RunBooks& books_;
+    EvolutionConfig const& evolution_;
+    RunOptions const& options_;
+    Stopwatch const& watch_;
+    int generation_;
+    std::string stop_reason_;
+    double selection_seconds_ = 0;
+    Progress progress_;
+};
 
 }   // namespace
 
@@ -81,66 +137,40 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     Stopwatch const watch;
     install_stop_handlers();
     PreparedRun run = prepare_or_release(session, options);
-    RunSetup& setup = run.setup;
-    EvolutionState state = setup.checkpoint ? setup.checkpoint->state : EvolutionState{};
-    if (setup.already_done) {
+    EvolutionState state = run.setup.checkpoint ? run.setup.checkpoint->state : EvolutionState{};
+    if (run.setup.already_done) {
         release_other_ranks(session);
-        mend_lineage(setup);
-        return {true, "", state.signature.text(), state.population.generation, best_of_run(state.population).birth};
+        mend_lineage(run.setup);
+        return outcome(state, "");
     }
-    if (!setup.warning.empty()) fmt::print(stderr, "warning: {}\n", setup.warning);
+    if (!run.setup.warning.empty()) fmt::print(stderr, "warning: {}\n", run.setup.warning);
 
-    std::vector<std::string> hosts = give_order(session, setup.order);
-    Farm farm{session.world(),
-              evaluation_in(std::move(run.context))};   // releases the others whatever happens from here on
-    EvolutionConfig const evolution = setup.order.config.evolution;
-    std::uint64_t const seed = setup.seed;
-    std::string const genome_path = setup.file(run_file::failed_genome);
-    RunBooks books{std::move(setup), std::move(hosts), options.command_line};
-
-    int generation = state.population.members.empty() ? -1 : state.population.generation;   // the last that is complete
-    Progress progress{options.directory, evolution.generations, "generations", generations_a_line, options.quiet};
-    progress.start_at(std::max(generation, 0));
-    MasterTimes times;
-    std::string stop_reason;
-    auto const observe = [&](GenerationReport const& report) {
-        generation = report.generation;
-        times.selection += report.selection_seconds;
-        progress.update(generation, describe(books.add(report), evolution.use_shaping));
-        if (generation == evolution.generations) return true;
-        stop_reason = stop_request();
-        if (stop_reason.empty() && options.max_seconds && watch.total() >= *options.max_seconds)
-            stop_reason = "time limit";
-        if (!stop_reason.empty()) return false;
-        if (books.checkpoint_is_due()) books.write_checkpoint(*report.state);
-        return true;
-    };
+    std::vector<std::string> hosts = give_order(session, run.setup.order);
+    // Releases the others whatever happens from here on.
+    Farm farm{session.world(), evaluation_in(std::move(run.context))};
+    EvolutionConfig const evolution = run.setup.order.config.evolution;
+    std::uint64_t const seed = run.setup.seed;
+    std::string const genome_path = run.setup.file(run_file::failed_genome);
+    RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
+    Supervisor supervisor{books, evolution, options, watch,
+                          state.population.members.empty() ? -1 : state.population.generation};
     try {
-        state = evolve(evolution, seed, farm, std::move(state), observe);
-    } catch (EvaluationFailure const& failure) {
-        Error const told = tell(failure, generation + 1, genome_path);
-        if (farm.broken()) end_all(session, told);
-        throw told;
-    } catch (Error const& error) {
-        if (farm.broken()) end_all(session, error);
-        throw;
-    } catch (std::exception const& error) {
-        bool const memory = dynamic_cast<std::bad_alloc const*>(&error) != nullptr;
-        Error const told(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation + 1),
-                         memory ? "out of memory" : error.what(),
-                         memory ? "Resume the run where there is more." : "Resume the run.");
+        state = evolve(evolution, seed, farm, std::move(state),
+                       [&](GenerationReport const& report) { return supervisor.after_generation(report); });
+    } catch (std::exception const&) {
+        Error const told = failure_in_hand(supervisor.generation() + 1, genome_path);
         if (farm.broken()) end_all(session, told);
         throw told;
     }
 
     std::vector<RankTimes> const rank_times = farm.stop();
+    std::string const& stop_reason = supervisor.stop_reason();
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
                 stop_reason.empty() ? "done" : stop_reason);
-    times.files = books.filing_seconds();
-    times.wall = watch.total();
-    if (!options.quiet) fmt::print(stderr, "{}", time_report(rank_times, times));
-    return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation,
-            best_of_run(state.population).birth};
+    if (!options.quiet)
+        fmt::print(stderr, "{}",
+                   time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}));
+    return outcome(state, stop_reason);
 }
 
 }   // namespace lore

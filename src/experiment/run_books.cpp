@@ -16,11 +16,21 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
     return std::chrono::duration<double>(to - from).count();
 }
 
+/// The run's config.toml is about to be written in today's words, which a digest of the former kind would not fit. Both
+/// checkpoints get the present one before, so that either serves whenever the run is killed.
+void renew_digest(RunSetup const& setup) {
+    Checkpoint renewed = *setup.checkpoint;
+    renewed.config_digest = setup.digest;
+    for (int copy = 0; copy < 2; ++copy)
+        write_checkpoint(setup.file(run_file::checkpoint), setup.file(run_file::older_checkpoint), renewed);
+}
+
 }   // namespace
 
 RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line)
     : setup_(std::move(setup)) {
     Checkpoint const* const from = setup_.checkpoint ? &*setup_.checkpoint : nullptr;
+    if (setup_.has_former_digest) renew_digest(setup_);
     // The configuration comes last: a directory holds a run as soon as it has one, and then has all that it needs.
     ExperimentConfig kept = setup_.order.config;
     kept.arena = run_file::arena;
@@ -54,9 +64,9 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
 
 double RunBooks::session_seconds() const { return seconds_between(began_, Clock::now()); }
 
-ProgressRow const& RunBooks::add(GenerationReport const& report) {
+GenerationSummary const& RunBooks::add(GenerationReport const& report) {
     auto const before = Clock::now();
-    ProgressRow row = row_of(report);
+    GenerationSummary row = summarize(report);
     row.evaluations += row_.evaluations;
     row.steps += row_.steps;
     row.seconds = former_seconds_ + session_seconds();
@@ -107,7 +117,7 @@ void RunBooks::close(EvolutionState const& state, RunStatus status, std::string 
     for (std::string_view const output : {run_file::config, run_file::arena, run_file::progress, run_file::lineage,
                                           run_file::all_individuals, run_file::checkpoint})
         if (std::string const path = setup_.file(output); std::filesystem::exists(path))
-            manifest.outputs.push_back(record_of("output", path, std::string{output}));
+            manifest.outputs.push_back(record_of(file_role::output, path, std::string{output}));
     RunSession& session = manifest.sessions.back();
     session.stopped = time_stamp();
     session.reason = reason;

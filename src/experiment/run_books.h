@@ -18,7 +18,7 @@ public:
     RunBooks(RunSetup, std::vector<std::string> hosts, std::string command_line);
 
     /// Enters a generation.
-    ProgressRow const& add(GenerationReport const&);
+    GenerationSummary const& add(GenerationReport const&);
     /// Whether the configuration asks for a checkpoint now.
     bool checkpoint_is_due() const;
     /// Everything on disk is consistent with `state` when it returns, and durable.
@@ -29,7 +29,7 @@ public:
     double session_seconds() const;
     /// Spent on files so far [s].
     double filing_seconds() const { return filing_seconds_; }
-    ProgressRow const& last_row() const { return row_; }
+    GenerationSummary const& last_row() const { return row_; }
 
 private:
     using Clock = std::chrono::steady_clock;   // never jumps
@@ -37,7 +37,7 @@ private:
 
     RunSetup setup_;
     double former_seconds_ = 0;
-    ProgressRow row_;
+    GenerationSummary row_;
     std::optional<ProgressWriter> progress_;
     std::optional<AllIndividualsWriter> all_;
     Clock::time_point began_ = Clock::now(), last_checkpoint_ = Clock::now();

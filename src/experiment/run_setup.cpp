@@ -1,14 +1,13 @@
 #include "run_setup.h"
 
+#include "run_resumption.h"
+
 #include <lore/archive/atomic_file.h>
-#include <lore/archive/checksum.h>
 #include <lore/core/error.h>
 #include <lore/experiment/run_directory.h>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -23,44 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char role_configuration[] = "configuration";
-constexpr char role_arena[] = "arena";
-constexpr char role_knowledge[] = "knowledge base";
-
-std::string as_text(std::vector<std::byte> const& bytes) {
-    return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
-}
-
 void make_directory(std::string const& directory) {
     std::error_code failed;
     fs::create_directories(directory, failed);
     if (failed || !fs::is_directory(directory))
         throw Error(fmt::format("cannot make the directory {}", directory),
                     failed ? failed.message() : "there is a file of that name", "Choose another with --out.");
-}
-
-/// Settings that a resumed run may change: they do not touch what has been computed.
-bool may_change(std::string const& key) {
-    return key == "evolution.generations" || key == "name" || key == "arena" || key.starts_with("checkpoint.");
-}
-
-std::uint64_t digest_of(RunSetup const& setup) {
-    ExperimentConfig config = setup.order.config;
-    ExperimentConfig const standard;
-    config.name = config.arena = "";
-    config.evolution.generations = 0;
-    config.checkpoint_generations = standard.checkpoint_generations;
-    config.checkpoint_minutes = standard.checkpoint_minutes;
-    return checksum(fmt::format("{}\n{}\n{}\n{}", to_toml(config), setup.order.arena_text,
-                                setup.order.knowledge_checksum, setup.seed));
-}
-
-void take_knowledge(RunSetup& setup, std::string const& path) {
-    if (path.empty()) return;
-    std::error_code failed;
-    setup.order.knowledge_path = fs::absolute(path, failed).string();
-    setup.order.knowledge_checksum = checksum_text(checksum_of_file(path));
-    setup.order.config.evolution.use_shaping = true;
 }
 
 /// A run that lost its configuration is not written over.
@@ -79,96 +46,16 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
                          "Name one, such as jobs/tasks/source.toml.");
     setup.order.config = read_config(options.config_path, options.overrides);
     setup.order.arena_text = arena_text(setup.order.config.arena);
-    take_knowledge(setup, options.knowledge_base);
+    if (!options.knowledge_base.empty()) setup.order.take_knowledge(options.knowledge_base);
     setup.seed = options.seed.value_or(1);
     setup.archive_all = options.archive_all;
-    setup.manifest.inputs.push_back(record_of(role_configuration, options.config_path, options.config_path));
+    setup.manifest.inputs.push_back(record_of(file_role::configuration, options.config_path, options.config_path));
     if (fs::exists(setup.order.config.arena))
-        setup.manifest.inputs.push_back(record_of(role_arena, setup.order.config.arena, setup.order.config.arena));
+        setup.manifest.inputs.push_back(
+            record_of(file_role::arena, setup.order.config.arena, setup.order.config.arena));
     if (!options.knowledge_base.empty())
-        setup.manifest.inputs.push_back(record_of(role_knowledge, options.knowledge_base, setup.order.knowledge_path));
-}
-
-/// What the command line says again when it resumes a run must be what the run was started with.
-void refuse_other_settings(RunSetup const& setup, RunOptions const& options, ExperimentConfig const& recorded) {
-    if (options.config_path.empty()) return;
-    ExperimentConfig given = read_config(options.config_path, options.overrides);
-    given.evolution.use_shaping = recorded.evolution.use_shaping;
-    std::vector<std::string> changed;
-    for (std::string const& key : differing_settings(given, recorded))
-        if (!may_change(key)) changed.push_back(key);
-    if (!changed.empty())
-        throw UsageError(fmt::format("cannot go on with {} under another configuration", options.directory),
-                         fmt::format("it was started with another {}", fmt::join(changed, ", ")),
-                         fmt::format("Compare {}, or start in another directory.", setup.file(run_file::config)));
-    if (arena_text(given.arena) != setup.order.arena_text)
-        throw UsageError(fmt::format("cannot go on with {} in another arena", options.directory),
-                         fmt::format("{} has changed since", given.arena), "Start in another directory.");
-}
-
-void refuse_another_seed(RunSetup const& setup, RunOptions const& options) {
-    if (options.seed && *options.seed != setup.seed)
-        throw UsageError(fmt::format("cannot go on with {} with another seed", options.directory),
-                         fmt::format("it was started with --seed {}", setup.seed),
-                         "Leave out --seed, or start in another directory.");
-}
-
-void go_on(RunSetup& setup, RunOptions const& options) {
-    ExperimentConfig const recorded = read_config(setup.file(run_file::config));
-    setup.order.arena_text = as_text(read_file(setup.file(run_file::arena)));
-    refuse_other_settings(setup, options, recorded);
-    std::vector<std::string> late;   // of --set, those that may change
-    for (std::string const& override : options.overrides) {
-        std::string const key = override.substr(0, override.find('='));
-        if (may_change(key) || options.config_path.empty()) late.push_back(override);
-        if (options.config_path.empty() && !may_change(key))
-            throw UsageError(fmt::format("--set {} comes too late", override), "the run was started without it",
-                             "Start in another directory.");
-    }
-    setup.order.config = read_config(setup.file(run_file::config), late);
-    if (!options.config_path.empty()) {
-        ExperimentConfig const given = read_config(options.config_path, options.overrides);
-        setup.order.config.evolution.generations = given.evolution.generations;
-        setup.order.config.checkpoint_generations = given.checkpoint_generations;
-        setup.order.config.checkpoint_minutes = given.checkpoint_minutes;
-    }
-
-    if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
-    FileRecord const* const knowledge = find_role(setup.manifest.inputs, role_knowledge);
-    std::string const former = knowledge == nullptr ? "" : knowledge->path;
-    if (options.knowledge_base.empty() && !former.empty() && !fs::exists(former))
-        throw UsageError(fmt::format("cannot go on with {}", options.directory),
-                         fmt::format("its knowledge base {} is not there any more", former),
-                         "Say where it is now with --kb.");
-    if (setup.order.config.evolution.use_shaping)
-        take_knowledge(setup, options.knowledge_base.empty() ? former : options.knowledge_base);
-    else if (!options.knowledge_base.empty())
-        throw UsageError(fmt::format("cannot go on with {} with a knowledge base", options.directory),
-                         "the run was started without one", "Leave out --kb, or start in another directory.");
-    if (knowledge != nullptr && setup.order.knowledge_checksum != knowledge->checksum)
-        throw UsageError(fmt::format("cannot go on with {} with another knowledge base", options.directory),
-                         fmt::format("{} is not the file it was started with", setup.order.knowledge_path),
-                         "Give that one with --kb.");
-    setup.archive_all = options.archive_all;
-
-    bool const has_checkpoint =
-        fs::exists(setup.file(run_file::checkpoint)) || fs::exists(setup.file(run_file::older_checkpoint));
-    if (!has_checkpoint) {   // killed before the first one
-        setup.seed = setup.manifest.sessions.empty() ? options.seed.value_or(1) : setup.manifest.seed;
-        refuse_another_seed(setup, options);
-        setup.archive_all = setup.archive_all || fs::exists(setup.file(run_file::all_individuals));
-        return;
-    }
-    FoundCheckpoint found = read_checkpoint(setup.file(run_file::checkpoint), setup.file(run_file::older_checkpoint));
-    setup.warning = std::move(found.warning);
-    setup.checkpoint = std::move(found.checkpoint);
-    setup.seed = setup.manifest.sessions.empty() ? setup.checkpoint->seed : setup.manifest.seed;
-    refuse_another_seed(setup, options);
-    bool const archived = setup.checkpoint->all_individuals.bytes > 0;
-    if (options.archive_all && !archived)
-        throw UsageError(fmt::format("cannot archive all individuals of {}", options.directory),
-                         "the run was started without --archive all", "Leave it out, or start in another directory.");
-    setup.archive_all = archived;
+        setup.manifest.inputs.push_back(
+            record_of(file_role::knowledge, options.knowledge_base, setup.order.knowledge_path));
 }
 
 /// A run's configuration is the last of what its start writes, and so tells that the rest is there.
@@ -179,11 +66,7 @@ void settle(PreparedRun& run, RunOptions const& options) {
     RunSetup& setup = run.setup;
     if (setup.order.config.evolution.use_shaping && setup.order.knowledge_path.empty())
         throw UsageError("evolution.use_shaping is true", "no knowledge base is given", "Give one with --kb.");
-    setup.digest = digest_of(setup);
-    if (setup.checkpoint && (setup.checkpoint->config_digest != setup.digest || setup.checkpoint->seed != setup.seed))
-        throw UsageError(fmt::format("cannot go on with {}", options.directory),
-                         fmt::format("{} or {} was changed since its checkpoint", run_file::config, run_file::arena),
-                         "Restore them.");
+    check_digest(setup);
     int const reached = setup.checkpoint ? setup.checkpoint->state.population.generation : -1;
     if (reached > setup.order.config.evolution.generations)
         throw UsageError(fmt::format("cannot go on with {}", options.directory),
@@ -244,7 +127,7 @@ PreparedRun prepare_run(RunOptions const& options) {
     if (!resumed) refuse_remains(setup);
     remove_leftovers(options.directory);
     if (resumed) {
-        go_on(setup, options);
+        resume(setup, options);
         settle(run, options);
     }
     return run;

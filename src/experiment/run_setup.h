@@ -28,7 +28,8 @@ struct RunSetup {
     std::string directory;
     WorkOrder order;
     std::uint64_t seed = 1;
-    std::uint64_t digest = 0;   ///< of all that results depend on
+    std::uint64_t digest = 0;         ///< of all that results depend on
+    bool has_former_digest = false;   ///< the checkpoint's is of the former kind
     bool archive_all = false;
     Manifest manifest;                      ///< inputs and former sessions
     std::optional<Checkpoint> checkpoint;   ///< to go on from

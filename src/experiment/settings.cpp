@@ -18,9 +18,10 @@ public:
 
     void section(std::string name) { section_ = std::move(name); }
 
-    void add(std::string key, int& value, int least, int most, std::string_view doc) {
+    void add(std::string key, int& value, int least, int most, std::string_view doc,
+             Affects affects = Affects::results) {
         push(
-            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value, affects,
             [=, &value](TomlTable const& table) {
                 if (auto const read = table.integer(key, least, most)) value = static_cast<int>(*read);
             },
@@ -28,25 +29,26 @@ public:
     }
     template <class Real>
     requires std::is_floating_point_v<Real>
-    void add(std::string key, Real& value, double least, double most, std::string_view doc) {
+    void add(std::string key, Real& value, double least, double most, std::string_view doc,
+             Affects affects = Affects::results) {
         push(
-            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value,
+            key, fmt::format("{}; {}", doc, range(least, most)), Setting::Kind::value, affects,
             [=, &value](TomlTable const& table) {
                 if (auto const read = table.number(key, least, most)) value = static_cast<Real>(*read);
             },
             [&value] { return fmt::format("{}", value); });
     }
-    void add(std::string key, bool& value, std::string_view doc) {
+    void add(std::string key, bool& value, std::string_view doc, Affects affects = Affects::results) {
         push(
-            key, std::string{doc}, Setting::Kind::value,
+            key, std::string{doc}, Setting::Kind::value, affects,
             [=, &value](TomlTable const& table) {
                 if (auto const read = table.boolean(key)) value = *read;
             },
             [&value] { return value ? "true" : "false"; });
     }
-    void add(std::string key, std::string& value, std::string_view doc) {
+    void add(std::string key, std::string& value, std::string_view doc, Affects affects = Affects::results) {
         push(
-            key, std::string{doc}, Setting::Kind::text,
+            key, std::string{doc}, Setting::Kind::text, affects,
             [=, &value](TomlTable const& table) {
                 if (auto read = table.string(key)) value = *std::move(read);
             },
@@ -54,9 +56,10 @@ public:
     }
     /// A choice, written as its name; `parse` throws UsageError for an unknown one.
     template <class Choice>
-    void add(std::string key, Choice& value, Choice (*parse)(std::string_view), std::string_view doc) {
+    void add(std::string key, Choice& value, Choice (*parse)(std::string_view), std::string_view doc,
+             Affects affects = Affects::results) {
         push(
-            key, std::string{doc}, Setting::Kind::text,
+            key, std::string{doc}, Setting::Kind::text, affects,
             [=, &value](TomlTable const& table) {
                 auto const read = table.string(key);
                 if (!read) return;
@@ -67,9 +70,10 @@ public:
             [&value] { return quoted(name(value)); });
     }
     template <class Choice>
-    void add(std::string key, std::vector<Choice>& values, Choice (*parse)(std::string_view), std::string_view doc) {
+    void add(std::string key, std::vector<Choice>& values, Choice (*parse)(std::string_view), std::string_view doc,
+             Affects affects = Affects::results) {
         push(
-            key, std::string{doc}, Setting::Kind::list,
+            key, std::string{doc}, Setting::Kind::list, affects,
             [=, &values](TomlTable const& table) {
                 auto const read = table.strings(key);
                 if (!read) return;
@@ -105,9 +109,9 @@ private:
         return most == std::numeric_limits<Number>::max() ? fmt::format("at least {}", least)
                                                           : fmt::format("{} .. {}", least, most);
     }
-    void push(std::string const& key, std::string doc, Setting::Kind kind, std::function<void(TomlTable const&)> read,
-              std::function<std::string()> text) {
-        settings.push_back({section_, key, std::move(doc), kind, std::move(read), std::move(text)});
+    void push(std::string const& key, std::string doc, Setting::Kind kind, Affects affects,
+              std::function<void(TomlTable const&)> read, std::function<std::string()> text) {
+        settings.push_back({section_, key, std::move(doc), kind, affects, std::move(read), std::move(text)});
     }
 
     std::string section_;
@@ -120,8 +124,9 @@ constexpr int any = std::numeric_limits<int>::max();
 std::vector<Setting> settings_of(ExperimentConfig& config) {
     Description d;
     d.section("");
-    d.add("name", config.name, "of the treatment, for people and reports");
-    d.add("arena", config.arena, "a built-in arena's name, or a path relative to this file");
+    d.add("name", config.name, "of the treatment, for people and reports", Affects::nothing);
+    // A path says nothing about results; what lies there does, and is compared as a text.
+    d.add("arena", config.arena, "a built-in arena's name, or a path relative to this file", Affects::nothing);
     d.add("task", config.task, "one of the arena's tasks");
 
     d.section("episode");
@@ -133,14 +138,14 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.section("evolution");
     d.add("population", evolution.population, 2, 100000, "survivors of a generation, and children of one");
     d.add("founders", evolution.founders, 2, 200000, "random individuals of generation 0; not fewer than population");
-    d.add("generations", evolution.generations, 0, any, "length of the run [generations]");
+    d.add("generations", evolution.generations, 0, any, "length of the run [generations]", Affects::length);
     d.add("ties", evolution.ties, tie_rule, "order among equals in sorts and cuts: random, older or younger first");
-    d.add("use_diversity", evolution.use_diversity, "objective: behavioural diversity");
+    d.add("use_diversity", evolution.use_diversity, "objective: behavioral diversity");
     d.add("use_shaping", evolution.use_shaping, "objective: reward shaping; set by --kb");
 
     d.section("diversity");
     d.add("period", evolution.diversity.period, 1, any,
-          "the behavioural distance is drawn anew every so many generations");
+          "the behavioral distance is drawn anew every so many generations");
     d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: adhoc, hamming, trajectory, entropy");
 
     MutationConfig& mutation = evolution.mutation;
@@ -168,8 +173,10 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
           "a window nearer than this to a feature matches it [L2]");
 
     d.section("checkpoint");
-    d.add("generations", config.checkpoint_generations, 1, any, "a checkpoint every so many generations");
-    d.add("minutes", config.checkpoint_minutes, 0.0, 1e6, "and every so many minutes; 0 after every generation");
+    d.add("generations", config.checkpoint_generations, 1, any, "a checkpoint every so many generations",
+          Affects::nothing);
+    d.add("minutes", config.checkpoint_minutes, 0.0, 1e6, "and every so many minutes; 0 after every generation",
+          Affects::nothing);
     return std::move(d.settings);
 }
 

@@ -9,7 +9,11 @@
 
 namespace lore {
 
-/// One setting of an ExperimentConfig, described once: reading, --set, config.toml and its comments all follow from it.
+/// One setting of an ExperimentConfig, described once: reading, --set, config.toml, its comments, and what a resumed
+/// run may change all follow from it.
+///
+/// A default never changes: checkpoints are guarded by the settings that are not at their default (run_digest.h). What
+/// shall be different from now on is a new setting, or a value in jobs/.
 struct Setting {
     enum class Kind : std::uint8_t { value, text, list };   ///< text and list may come unquoted from a command line
 
@@ -17,6 +21,7 @@ struct Setting {
     std::string key;
     std::string doc;   ///< meaning, unit in brackets, range
     Kind kind = Kind::value;
+    Affects affects = Affects::results;
     std::function<void(TomlTable const&)> read;   ///< from the table of its section, if the key is there
     std::function<std::string()> text;            ///< the present value as TOML
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+
 namespace lore {
 
 namespace {
@@ -51,6 +53,13 @@ void check_fit(KnowledgeBase const& base, ExperimentConfig const& config, std::s
 }
 
 }   // namespace
+
+void WorkOrder::take_knowledge(std::string const& path) {
+    std::error_code failed;
+    knowledge_path = std::filesystem::absolute(path, failed).string();
+    knowledge_checksum = checksum_text(checksum_of_file(path));
+    config.evolution.use_shaping = true;
+}
 
 EvaluationContext context_of(WorkOrder const& order) {
     EvaluationContext context{parse_arena(order.arena_text, order.config.arena, order.config.task),

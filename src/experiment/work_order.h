@@ -14,6 +14,9 @@ struct WorkOrder {
     std::string arena_text;
     std::string knowledge_path;       ///< absolute, or empty
     std::string knowledge_checksum;   ///< that every rank must find
+
+    /// Evolution is to be shaped by the knowledge base at `path`. Throws Error: it cannot be read.
+    void take_knowledge(std::string const& path);
 };
 
 /// Throws Error: the knowledge base is missing or damaged, or does not fit.

@@ -92,7 +92,7 @@ inline void write_sample_tables(std::filesystem::path const& directory) {
 
     std::string rows = progress_header() + "\n";
     for (int generation : {0, 1}) {
-        ProgressRow row;
+        GenerationSummary row;
         row.generation = generation;
         row.mean_balls = 1.25;
         row.seconds = 3.5;

@@ -30,7 +30,7 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
     AllIndividualsWriter everybody{file(run_file::all_individuals)};
     EvolutionState const end = evolve(config.evolution, seed, evaluator, {}, [&](GenerationReport const& report) {
         everybody.add(report);
-        progress.add(row_of(report));
+        progress.add(summarize(report));
         return true;
     });
     everybody.finish();

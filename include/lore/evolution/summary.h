@@ -6,24 +6,28 @@
 
 namespace lore {
 
-/// One generation in figures, as progress.csv tells it; of the survivors unless said otherwise.
+/// One generation in figures, a row of progress.csv; of the survivors unless said otherwise.
+/// A new figure is a line here, one in summarize, and one in the columns of progress.csv.
 struct GenerationSummary {
     int generation = 0;
     int best_balls = 0;
     double mean_balls = 0;
     DistanceKind distance = DistanceKind::adhoc;
-    double mean_diversity = 0;
+    double mean_diversity = 0;   ///< BD
     double best_shaping = no_feature_value;
     double mean_connections = 0;
     double mean_hidden = 0;
-    int fronts = 0;                 ///< of the joint ranking
-    int tied = 0;                   ///< survivors that share all objectives with another one
-    double shaping_at_max = 0;      ///< share that holds the best shaping value; 0 where nobody matched a feature
-    std::int64_t evaluations = 0;   ///< in this generation
-    std::int64_t steps = 0;         ///< recorded by these evaluations [steps]
+    int fronts = 0;                  ///< of the joint ranking
+    int tied = 0;                    ///< survivors that share all objectives with another one
+    double shaping_at_max = 0;       ///< share that holds the best shaping value; 0 where nobody matched a feature
+    std::uint64_t evaluations = 0;   ///< in this generation; in progress.csv, since the run began
+    std::uint64_t steps = 0;         ///< recorded by these evaluations, likewise [steps]
+    double seconds = 0;              ///< of wall time since the run began, in all sessions [s]; not told by a report
+
+    friend bool operator==(GenerationSummary const&, GenerationSummary const&) = default;
 };
 
-/// A pure function of the report.
+/// A pure function of the report; seconds stay 0.
 GenerationSummary summarize(GenerationReport const&);
 
 }   // namespace lore

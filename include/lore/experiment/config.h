@@ -4,6 +4,7 @@
 #include <lore/evolution/evolution.h>
 #include <lore/knowledge/window.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,28 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
 /// The complete effective configuration, commented with meaning and unit; read_config reads it back to the same.
 std::string to_toml(ExperimentConfig const&);
 
-/// Settings ("section.key") whose values differ.
-std::vector<std::string> differing_settings(ExperimentConfig const&, ExperimentConfig const&);
+/// What a change of a setting changes.
+enum class Affects : std::uint8_t {
+    results,   ///< what a generation computes: fixed from a run's start to its end
+    length,    ///< only the number of generations: a resumed run may go further
+    nothing    ///< of the results: names, places, checkpoints
+};
+
+/// A setting that has different values in two configurations.
+struct SettingDifference {
+    std::string key;           ///< "section.key"
+    std::string left, right;   ///< its values as TOML
+    Affects affects = Affects::results;
+};
+/// In the order of config.toml.
+std::vector<SettingDifference> differing_settings(ExperimentConfig const& left, ExperimentConfig const& right);
+/// Only those that affect results.
+std::vector<SettingDifference> differing_result_settings(ExperimentConfig const& left, ExperimentConfig const& right);
+/// "evolution.population = 16, not 18": the left value, and not the right one.
+std::string text(std::vector<SettingDifference> const&);
+
+/// The settings that affect results and are not at their default: a line "section.key = value" each, sorted.
+/// Descriptions do not enter, nor does a setting that is added in a later version, at its default.
+std::string result_settings(ExperimentConfig const&);
 
 }   // namespace lore

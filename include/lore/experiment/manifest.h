@@ -12,9 +12,15 @@ namespace lore {
 enum class RunStatus : std::uint8_t { running, interrupted, done };
 std::string_view name(RunStatus);
 
+/// Parts that files play in a run.
+namespace file_role {
+inline constexpr char configuration[] = "configuration", arena[] = "arena", knowledge[] = "knowledge base",
+                      output[] = "output";
+}   // namespace file_role
+
 /// A file that went into a run or came out of it, and what it was like.
 struct FileRecord {
-    std::string role;   ///< "configuration", "arena", "knowledge base", or that of an output
+    std::string role;   ///< a file_role
     std::string path;   ///< inputs as given, outputs relative to the run's directory
     std::uint64_t bytes = 0;
     std::string checksum;   ///< XXH3-64, 16 hexadecimal digits
@@ -56,6 +62,8 @@ Manifest read_manifest(std::string const& path);
 FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as);
 /// The first with that role, or null.
 FileRecord const* find_role(std::vector<FileRecord> const&, std::string_view role);
+/// The first with that path, or null.
+FileRecord const* find_path(std::vector<FileRecord> const&, std::string_view path);
 /// Now, UTC, as "2025-01-31T12:00:00Z".
 std::string time_stamp();
 

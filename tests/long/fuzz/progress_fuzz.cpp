@@ -9,6 +9,6 @@ using namespace lore;
 void read_input(std::span<std::byte const> input) {
     fuzz::MemoryFile const stored{input};
     fuzz::accepts([&] {
-        for (ProgressRow const& row : read_progress(stored.path())) text(row);
+        for (GenerationSummary const& row : read_progress(stored.path())) text(row);
     });
 }

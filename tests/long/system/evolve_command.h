@@ -4,7 +4,10 @@
 
 #include <lore/archive/atomic_file.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,11 +38,19 @@ inline std::string signature(Command const& command) {
     return out.substr(at + 11, 16);
 }
 
-/// progress.csv without its last column, the only one that tells the time.
+/// progress.csv without the column `seconds`, the only one that tells the time.
 inline std::string timeless_progress(std::string const& directory) {
     std::istringstream lines{file_text(directory + "/progress.csv")};
     std::string kept;
-    for (std::string line; std::getline(lines, line);) kept += line.substr(0, line.rfind(',')) + "\n";
+    std::ptrdiff_t seconds = -1;   // the place of that column
+    for (std::string line; std::getline(lines, line); kept += "\n") {
+        if (seconds < 0)
+            seconds = std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("seconds")), ',');
+        std::istringstream fields{line};
+        std::string field;
+        for (std::ptrdiff_t at = 0; std::getline(fields, field, ','); ++at)
+            if (at != seconds) kept += field + ",";
+    }
     return kept;
 }
 

@@ -245,7 +245,7 @@ TEST(Resume, refuses_what_contradicts_the_run) {
         char const* says;
     };
     for (Case const& one : {Case{{"--seed", "4"}, "it was started with --seed 3"},
-                            Case{{"--set", "evolution.population=18"}, "another evolution.population"},
+                            Case{{"--set", "evolution.population=18"}, "evolution.population = 16, not 18"},
                             Case{{"--kb", scratch.file("kb")}, "the run was started without one"},
                             Case{{"--set", "evolution.generations=1"}, "Set evolution.generations higher"}}) {
         Refusal const said =

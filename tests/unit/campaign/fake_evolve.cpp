@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
         Stream rng{manifest.seed, Purpose::test, static_cast<std::uint32_t>(treatment.size() + kb.size() % 7)};
         double const level = 2 + rng.below(5) + (kb.empty() ? 0 : 2);
         for (; generation <= config.evolution.generations; ++generation) {
-            ProgressRow row;
+            GenerationSummary row;
             row.generation = generation;
             row.best_balls = static_cast<int>(level * generation / config.evolution.generations);
             row.evaluations = 400 + 200ull * static_cast<unsigned>(generation);

@@ -47,8 +47,8 @@ TEST(Summarize, gives_the_figures_of_a_hand_worked_generation) {
     EXPECT_EQ(summary.mean_hidden, 0.75);
     EXPECT_EQ(summary.tied, 2);
     EXPECT_EQ(summary.shaping_at_max, 0.75);
-    EXPECT_EQ(summary.evaluations, 3);
-    EXPECT_EQ(summary.steps, 12000);
+    EXPECT_EQ(summary.evaluations, 3u);
+    EXPECT_EQ(summary.steps, 12000u);
 }
 
 TEST(Summarize, has_no_share_at_the_best_shaping_where_nobody_matched_a_feature) {

@@ -53,7 +53,7 @@ TEST(Config, comes_back_from_its_own_text_whatever_its_values) {
         config.knowledge.match_threshold = static_cast<float>(rng.uniform(0.1, 10));
         config.checkpoint_minutes = rng.uniform() * 100;
         ExperimentConfig const back = parse(to_toml(config));
-        EXPECT_TRUE(differing_settings(back, config).empty()) << differing_settings(back, config)[0];
+        EXPECT_TRUE(differing_settings(back, config).empty()) << text(differing_settings(back, config));
         EXPECT_EQ(back.evolution.mutation.weight_probability, config.evolution.mutation.weight_probability);
         EXPECT_EQ(back.knowledge.match_threshold, config.knowledge.match_threshold);
         EXPECT_EQ(back.name, config.name);

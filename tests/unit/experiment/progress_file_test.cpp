@@ -13,8 +13,8 @@ using namespace lore;
 
 namespace {
 
-ProgressRow row_at(int generation) {
-    ProgressRow row;
+GenerationSummary row_at(int generation) {
+    GenerationSummary row;
     row.generation = generation;
     row.best_balls = generation / 3;
     row.mean_balls = generation / 7.0;
@@ -37,7 +37,7 @@ TEST(ProgressFile, has_the_columns_that_scripts_rely_on) {
 
 TEST(ProgressFile, gives_back_its_rows_and_leaves_out_a_half_written_last_one) {
     Scratch const scratch;
-    std::vector<ProgressRow> expected;
+    std::vector<GenerationSummary> expected;
     {
         ProgressWriter writer{scratch.file("p.csv"), 0};
         for (int generation = 0; generation < 20; ++generation) {
@@ -78,4 +78,39 @@ TEST(ProgressFile, that_is_damaged_is_refused) {
         write_file_atomically(scratch.file("p.csv"), std::string_view{bad});
         EXPECT_THROW(read_progress(scratch.file("p.csv")), Error) << bad;
     }
+}
+
+TEST(ProgressFile, goes_on_with_the_columns_it_has) {
+    Scratch const scratch;
+    std::string const moved = "seconds," + progress_header().substr(0, progress_header().rfind(','));
+    std::string const first = "1.500,0,3,0.5,adhoc,0,-1,36,0,2,0,0,400,1600\n";
+    write_file_atomically(scratch.file("p.csv"), std::string_view{moved + "\n" + first});
+    {
+        ProgressWriter writer{scratch.file("p.csv"), std::filesystem::file_size(scratch.file("p.csv"))};
+        writer.add(row_at(1));
+    }
+    auto const rows = read_progress(scratch.file("p.csv"));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].seconds, 1.5);
+    EXPECT_EQ(rows[0].best_balls, 3);
+    EXPECT_EQ(rows[1], row_at(1));
+}
+
+TEST(ProgressFile, of_other_columns_is_not_gone_on_with) {
+    Scratch const scratch;
+    write_file_atomically(scratch.file("p.csv"), std::string_view{"a,b\n1,2\n"});
+    EXPECT_THROW(ProgressWriter(scratch.file("p.csv"), 8), Error);
+}
+
+TEST(ProgressFile, shows_its_last_whole_row_however_long_it_is) {
+    Scratch const scratch;
+    EXPECT_FALSE(read_last_progress(scratch.file("p.csv")));
+    ProgressWriter writer{scratch.file("p.csv"), 0};
+    EXPECT_FALSE(read_last_progress(scratch.file("p.csv")));
+    for (int generation = 0; generation < 100; ++generation) {
+        writer.add(row_at(generation));
+        EXPECT_EQ(read_last_progress(scratch.file("p.csv")), row_at(generation));
+    }
+    std::filesystem::resize_file(scratch.file("p.csv"), writer.sync() - 1);
+    EXPECT_EQ(read_last_progress(scratch.file("p.csv")), row_at(98));
 }

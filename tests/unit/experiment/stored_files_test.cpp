@@ -116,7 +116,7 @@ std::string trace_told(std::string const& path) {
 
 std::string progress_told(std::string const& path) {
     std::string story;
-    for (ProgressRow const& row : read_progress(path)) story += text(row) + "\n";
+    for (GenerationSummary const& row : read_progress(path)) story += text(row) + "\n";
     return story;
 }
 
@@ -129,7 +129,7 @@ std::string manifest_told(std::string const& path) {
 
 /// Settings may be added, so only those that the file holds count: as the reader then differs from the defaults.
 std::string config_told(std::string const& path) {
-    return fmt::format("differs: {}\n", fmt::join(differing_settings(read_config(path), {}), ", "));
+    return fmt::format("differs: {}\n", text(differing_settings(read_config(path), {})));
 }
 
 std::string arena_told(std::string const& path) {

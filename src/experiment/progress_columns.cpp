@@ -1,0 +1,132 @@
+#include "progress_columns.h"
+
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace lore {
+
+namespace {
+
+using Row = GenerationSummary;
+
+template <class Number>
+std::string text_of(Number number) {
+    return fmt::format("{}", number);
+}
+std::string text_of(DistanceKind kind) { return std::string{name(kind)}; }
+
+template <class Number>
+bool take(std::string_view field, Number& number) {
+    char const* const last = field.data() + field.size();
+    auto const [end, error] = std::from_chars(field.data(), last, number);
+    return error == std::errc{} && end == last && std::isfinite(static_cast<double>(number));   // "nan" is a number
+}
+bool take(std::string_view field, DistanceKind& kind) {
+    try {
+        kind = distance_kind(field);
+        return true;
+    } catch (UsageError const&) { return false; }
+}
+
+template <auto member>
+bool read(std::string_view field, Row& row) {
+    return take(field, row.*member);
+}
+template <auto member>
+constexpr ProgressColumn column(std::string_view name) {
+    return {name, [](Row const& row) { return text_of(row.*member); }, read<member>};
+}
+
+std::string milliseconds(Row const& row) { return fmt::format("{:.3f}", row.seconds); }
+
+/// docs/formats.md says what they mean. A new column is a line at the end, so that scripts that count columns go on.
+constexpr ProgressColumn columns[]{
+    column<&Row::generation>("generation"),
+    column<&Row::best_balls>("best_balls"),
+    column<&Row::mean_balls>("mean_balls"),
+    column<&Row::distance>("distance"),
+    column<&Row::mean_diversity>("mean_diversity"),
+    column<&Row::best_shaping>("best_shaping"),
+    column<&Row::mean_connections>("mean_connections"),
+    column<&Row::mean_hidden>("mean_hidden"),
+    column<&Row::fronts>("fronts"),
+    column<&Row::tied>("tied"),
+    column<&Row::shaping_at_max>("shaping_at_max"),
+    column<&Row::evaluations>("evaluations"),
+    column<&Row::steps>("steps"),
+    {"seconds", milliseconds, read<&Row::seconds>},
+};
+
+/// Fields of a line, one after the other.
+class Fields {
+public:
+    explicit Fields(std::string_view line) : rest_(line) {}
+    std::optional<std::string_view> next() {
+        if (ended_) return std::nullopt;
+        std::size_t const comma = rest_.find(',');
+        std::string_view const field = rest_.substr(0, comma);
+        ended_ = comma == std::string_view::npos;
+        rest_.remove_prefix(ended_ ? rest_.size() : comma + 1);
+        return field;
+    }
+
+private:
+    std::string_view rest_;
+    bool ended_ = false;
+};
+
+}   // namespace
+
+std::span<ProgressColumn const> progress_columns() { return columns; }
+
+std::optional<FileColumns> columns_named(std::string_view header, std::span<ProgressColumn const> known,
+                                         std::size_t required) {
+    FileColumns named;
+    Fields fields{header};
+    while (auto const field = fields.next()) {
+        auto const column =
+            std::find_if(known.begin(), known.end(), [&](ProgressColumn const& one) { return one.name == *field; });
+        if (column == known.end() || std::find(named.begin(), named.end(), &*column) != named.end())
+            return std::nullopt;
+        named.push_back(&*column);
+    }
+    for (ProgressColumn const& column : known.first(required))
+        if (std::find(named.begin(), named.end(), &column) == named.end()) return std::nullopt;
+    return named;
+}
+
+FileColumns all_columns() {
+    FileColumns all;
+    for (ProgressColumn const& column : columns) all.push_back(&column);
+    return all;
+}
+
+std::string header_of(FileColumns const& of_file) {
+    std::string header;
+    for (ProgressColumn const* column : of_file) header.append(header.empty() ? "" : ",").append(column->name);
+    return header;
+}
+
+std::string row_text(FileColumns const& of_file, GenerationSummary const& row) {
+    std::string text;
+    for (ProgressColumn const* column : of_file) text.append(text.empty() ? "" : ",").append(column->text(row));
+    return text;
+}
+
+std::optional<GenerationSummary> row_from(FileColumns const& of_file, std::string_view line) {
+    GenerationSummary row;
+    Fields fields{line};
+    for (ProgressColumn const* column : of_file) {
+        auto const field = fields.next();
+        if (!field || !column->read(*field, row)) return std::nullopt;
+    }
+    if (fields.next()) return std::nullopt;
+    return row;
+}
+
+}   // namespace lore

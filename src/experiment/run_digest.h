@@ -1,0 +1,18 @@
+#pragma once
+
+#include "work_order.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace lore {
+
+/// All that the results of a run depend on, in one number: the settings that affect results (result_settings), the
+/// arena, the knowledge base and the seed. A checkpoint keeps it, and is only continued where it is the same.
+std::uint64_t digest_of(WorkOrder const&, std::uint64_t seed);
+
+/// The same as checkpoints have it that were written up to commit e8a0ef9: of the configuration as it was rendered
+/// then, descriptions included. Only the run's own config.toml still holds these words, so its text is asked for.
+std::uint64_t former_digest_of(std::string_view config_text, WorkOrder const&, std::uint64_t seed);
+
+}   // namespace lore

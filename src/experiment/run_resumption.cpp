@@ -1,0 +1,120 @@
+#include "run_resumption.h"
+
+#include "run_digest.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+#include <lore/experiment/run_directory.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace lore {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+UsageError cannot_go_on(RunSetup const& setup, std::string_view with, std::string const& reason,
+                        std::string_view remedy) {
+    return {fmt::format("cannot go on with {}{}", setup.directory, with), reason, remedy};
+}
+
+std::string text_of(std::string const& path) {
+    std::vector<std::byte> const bytes = read_file(path);
+    return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
+}
+
+/// The configuration to go on with: the one named again on the command line, or the run's own, with the overrides.
+/// A command line that is repeated must mean the same run; only what does not affect results may differ.
+ExperimentConfig configuration_to_go_on_with(RunSetup const& setup, RunOptions const& options) {
+    std::string const own = setup.file(run_file::config);
+    ExperimentConfig const recorded = read_config(own);
+    ExperimentConfig wanted = read_config(options.config_path.empty() ? own : options.config_path, options.overrides);
+    if (recorded.evolution.use_shaping) wanted.evolution.use_shaping = true;   // --kb had set it
+    if (auto const others = differing_result_settings(recorded, wanted); !others.empty())
+        throw cannot_go_on(setup, " under another configuration", fmt::format("it was started with {}", text(others)),
+                           fmt::format("Compare {}, or start in another directory.", own));
+    if (arena_text(wanted.arena) != setup.order.arena_text)
+        throw cannot_go_on(setup, " in another arena", fmt::format("{} has changed since", wanted.arena),
+                           "Start in another directory.");
+    return wanted;
+}
+
+/// The knowledge base of the run, wherever it is now.
+void find_knowledge(RunSetup& setup, RunOptions const& options) {
+    FileRecord const* const recorded = find_role(setup.manifest.inputs, file_role::knowledge);
+    if (!setup.order.config.evolution.use_shaping) {
+        if (!options.knowledge_base.empty())
+            throw cannot_go_on(setup, " with a knowledge base", "the run was started without one",
+                               "Leave out --kb, or start in another directory.");
+        return;
+    }
+    std::string path = options.knowledge_base;
+    if (path.empty() && recorded != nullptr) {
+        path = recorded->path;
+        if (!fs::exists(path))
+            throw cannot_go_on(setup, "", fmt::format("its knowledge base {} is not there any more", path),
+                               "Say where it is now with --kb.");
+    }
+    if (!path.empty()) setup.order.take_knowledge(path);
+    if (recorded != nullptr && setup.order.knowledge_checksum != recorded->checksum)
+        throw cannot_go_on(setup, " with another knowledge base",
+                           fmt::format("{} is not the file it was started with", setup.order.knowledge_path),
+                           "Give that one with --kb.");
+}
+
+/// A run that was killed before its first checkpoint has none.
+void find_checkpoint(RunSetup& setup) {
+    std::string const newer = setup.file(run_file::checkpoint), older = setup.file(run_file::older_checkpoint);
+    if (!fs::exists(newer) && !fs::exists(older)) return;
+    FoundCheckpoint found = read_checkpoint(newer, older);
+    setup.warning = std::move(found.warning);
+    setup.checkpoint = std::move(found.checkpoint);
+}
+
+void take_seed(RunSetup& setup, RunOptions const& options) {
+    if (!setup.manifest.sessions.empty()) setup.seed = setup.manifest.seed;
+    else setup.seed = setup.checkpoint ? setup.checkpoint->seed : options.seed.value_or(1);
+    if (options.seed && *options.seed != setup.seed)
+        throw cannot_go_on(setup, " with another seed", fmt::format("it was started with --seed {}", setup.seed),
+                           "Leave out --seed, or start in another directory.");
+}
+
+void choose_archive(RunSetup& setup, RunOptions const& options) {
+    bool const archived = setup.checkpoint ? setup.checkpoint->all_individuals.bytes > 0
+                                           : fs::exists(setup.file(run_file::all_individuals));
+    if (setup.checkpoint && options.archive_all && !archived)
+        throw UsageError(fmt::format("cannot archive all individuals of {}", setup.directory),
+                         "the run was started without --archive all", "Leave it out, or start in another directory.");
+    setup.archive_all = archived || options.archive_all;
+}
+
+}   // namespace
+
+void resume(RunSetup& setup, RunOptions const& options) {
+    setup.order.arena_text = text_of(setup.file(run_file::arena));
+    setup.order.config = configuration_to_go_on_with(setup, options);
+    if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
+    find_knowledge(setup, options);
+    find_checkpoint(setup);
+    take_seed(setup, options);
+    choose_archive(setup, options);
+}
+
+void check_digest(RunSetup& setup) {
+    if (setup.checkpoint && setup.checkpoint->seed != setup.seed)
+        throw cannot_go_on(setup, "", fmt::format("{} has another seed than its checkpoint", run_file::manifest),
+                           "Restore it.");
+    setup.digest = digest_of(setup.order, setup.seed);
+    if (!setup.checkpoint || setup.checkpoint->config_digest == setup.digest) return;
+    setup.has_former_digest = setup.checkpoint->config_digest ==
+                              former_digest_of(text_of(setup.file(run_file::config)), setup.order, setup.seed);
+    if (!setup.has_former_digest)
+        throw cannot_go_on(setup, "",
+                           fmt::format("{} or {} was changed since its checkpoint", run_file::config, run_file::arena),
+                           "Restore them.");
+}
+
+}   // namespace lore
