@@ -3,8 +3,8 @@
 //   lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
 //   mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --seed 7 --out runs/kb1/007
 //
-// Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/formats.md), and prints
-// the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
+// Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/manual/formats.md), and
+// prints the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
 
 #include "program.h"
 

@@ -4,7 +4,8 @@
 //   lore-replay --follow trace.csv.gz --task source --out followed.csv
 //
 // The first writes replay/trace.csv, and trajectory.svg and .png colored by the knowledge base's values; the second
-// takes a recorded trace and writes what Lore's simulation makes of each of its steps. docs/formats.md has the columns.
+// takes a recorded trace and writes what Lore's simulation makes of each of its steps. docs/manual/formats.md has the
+// columns.
 
 #include "program.h"
 

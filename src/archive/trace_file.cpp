@@ -87,7 +87,7 @@ public:
     }
 
     [[noreturn]] void fail_file(std::string_view reason) const {
-        throw Error(fmt::format("cannot use {}", path_), reason, "Compare with the columns in docs/formats.md.");
+        throw Error(fmt::format("cannot use {}", path_), reason, "Compare with the columns in docs/manual/formats.md.");
     }
 
 private:

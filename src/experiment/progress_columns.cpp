@@ -44,7 +44,8 @@ constexpr ProgressColumn column(std::string_view name) {
 
 std::string milliseconds(Row const& row) { return fmt::format("{:.3f}", row.seconds); }
 
-/// docs/formats.md says what they mean. A new column is a line at the end, so that scripts that count columns go on.
+/// docs/manual/formats.md says what they mean. A new column is a line at the end, so that scripts that count columns go
+/// on.
 constexpr ProgressColumn columns[]{
     column<&Row::generation>("generation"),
     column<&Row::best_balls>("best_balls"),

@@ -77,8 +77,8 @@ public:
         return false;
     }
     /// The exit code, or 128 + the signal that ended it. Open MPI's launcher may wait for ever for a rank that was
-    /// killed before the launcher looked for it (docs/reliability.md): one that has had no living rank for 20 s is
-    /// ended here.
+    /// killed before the launcher looked for it (docs/design/reliability.md): one that has had no living rank for 20 s
+    /// is ended here.
     int wait() {
         for (int alone = 0; running(); std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
             alone = is_launcher_ && !has_living_children(pid_) ? alone + 1 : 0;

@@ -70,7 +70,7 @@ TEST_F(ReportScripts, measure_a_part_that_is_asked_for_alone) {
 #endif
 
 TEST_F(ReportScripts, keep_the_tables_of_scaling_md_those_of_its_csv) {
-    std::string const committed = LORE_SOURCE_DIR "/docs/scaling.md", copy = scratch.file("scaling.md");
+    std::string const committed = LORE_SOURCE_DIR "/docs/findings/scaling.md", copy = scratch.file("scaling.md");
     std::filesystem::copy_file(committed, copy);
     test::Ran const ran = run("scaling-report", "--from-csv --document " + copy);
     ASSERT_EQ(ran.exit_code, 0) << ran.errors;

@@ -1,4 +1,4 @@
-# Every foreign library, found once. Each enters the code by one module (docs/architecture.md).
+# Every foreign library, found once. Each enters the code by one module (docs/design/architecture.md).
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

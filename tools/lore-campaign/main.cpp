@@ -4,7 +4,7 @@
 //   lore-campaign report jobs/campaigns/small.toml --dir runs/small
 //
 // The first works through everything and can be stopped and called again; the second writes runs/small/report.html.
-// docs/campaigns.md is the how-to, docs/cluster.md the one for batch systems.
+// docs/manual/campaigns.md is the how-to, docs/manual/cluster.md the one for batch systems.
 
 #include "subcommand.h"
 

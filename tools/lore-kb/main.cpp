@@ -4,7 +4,7 @@
 //   lore-kb info kb1.lorekb
 //
 // The first simulates the lineage of the best individual of runs/s1 again and writes its behavioral features with
-// their values; the second shows what came out. docs/formats.md has the columns of the CSV files.
+// their values; the second shows what came out. docs/manual/formats.md has the columns of the CSV files.
 
 #include "command.h"
 

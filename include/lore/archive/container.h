@@ -35,7 +35,8 @@ enum class Packing : std::uint8_t { compressed, fast, plain };
 
 /// Every binary file of Lore: magic, format version, kind, byte order, payload length, flags and checksum (XXH3-64) in
 /// front of a payload that is zstd-compressed where that pays. All of it is checked before anyone parses the payload;
-/// lengths in the header are checked against the file before anything is allocated. docs/formats.md has the layout.
+/// lengths in the header are checked against the file before anything is allocated. docs/manual/formats.md has the
+/// layout.
 ///
 /// Writing is atomic: temporary file in the same directory, fsync, rename, fsync of the directory. On any failure the
 /// former file is still there, whole.

@@ -6,7 +6,8 @@
 
 namespace lore {
 
-/// Knowledge bases and windows for the long term and for other programs (docs/formats.md has columns and shapes).
+/// Knowledge bases and windows for the long term and for other programs (docs/manual/formats.md has columns and
+/// shapes).
 
 /// A row a feature: feature, value, reward_sum, count, then each channel of each step (range_right_0 .. collect_19).
 std::string knowledge_csv(KnowledgeBase const&);

@@ -7,7 +7,8 @@
 namespace lore {
 
 /// A KB file is a plain container whose payload holds the arrays as they are used, each aligned to 64 bytes of the
-/// file, so that the ranks of one node map it and share it through the page cache. docs/formats.md has the layout.
+/// file, so that the ranks of one node map it and share it through the page cache. docs/manual/formats.md has the
+/// layout.
 
 /// Atomic; throws Error (full disk, no permission), the former file survives.
 void write_knowledge_base(std::string const& path, KnowledgeBase const&);

@@ -55,7 +55,8 @@ struct Arena {
 inline constexpr int most_balls = 16;
 inline constexpr int most_basket_lights = 15;
 
-/// Reads an arena file (docs/formats.md) and takes one of its tasks. `file` is a path, or the name of a built-in arena
+/// Reads an arena file (docs/manual/formats.md) and takes one of its tasks. `file` is a path, or the name of a built-in
+/// arena
 /// ("collectball", the text of jobs/tasks/arenas/collectball.toml).
 /// Throws UsageError: unreadable, unknown key, arena not closed, a start pose, ball, switch or light inside a wall,
 /// sensors or effectors that the controller cannot serve, a robot too fast for its size, no such task.

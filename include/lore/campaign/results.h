@@ -95,7 +95,7 @@ struct Results {
 /// damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
 
-/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, replay.csv, values.csv (docs/formats.md).
+/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, replay.csv, values.csv (docs/manual/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
 /// Needs final.csv and curves.csv; what the others would tell is left out where they are missing. Throws Error.
 Results read_results(CampaignDirectory const&);

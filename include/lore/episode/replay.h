@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// One step of an evaluation with all there is to know: a row of trace.csv (docs/formats.md).
+/// One step of an evaluation with all there is to know: a row of trace.csv (docs/manual/formats.md).
 struct StepRecord {
     int step = 0;
     Pose pose;   ///< when the sensors are read

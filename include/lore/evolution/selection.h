@@ -6,7 +6,7 @@
 
 namespace lore {
 
-/// How sorts and cuts order equals (docs/model.md). Discrete balls make this matter more than one would think.
+/// How sorts and cuts order equals (docs/design/model.md). Discrete balls make this matter more than one would think.
 enum class TieRule : std::uint8_t { random, older, younger };
 std::string_view name(TieRule);
 TieRule tie_rule(std::string_view name);   ///< throws UsageError

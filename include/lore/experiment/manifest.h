@@ -39,7 +39,7 @@ struct RunSession {
     std::string reason;   ///< of the stop: "done", "signal 15", "time limit", ...
 };
 
-/// Provenance of a run: manifest.json (docs/formats.md).
+/// Provenance of a run: manifest.json (docs/manual/formats.md).
 struct Manifest {
     RunStatus status = RunStatus::running;
     std::string name;

@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// Names of what lore-evolve writes into the directory of a run (docs/formats.md).
+/// Names of what lore-evolve writes into the directory of a run (docs/manual/formats.md).
 namespace run_file {
 inline constexpr char config[] = "config.toml";
 inline constexpr char arena[] = "arena.toml";

@@ -69,7 +69,7 @@ public:
 
 /// The definition: every feature is compared.
 std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const&);
-/// Exact and fast: bounds by bits, then by summaries, then the exact distance (docs/performance.md).
+/// Exact and fast: bounds by bits, then by summaries, then the exact distance (docs/design/performance.md).
 std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const&);
 /// FLANN's KDTree forest with a fixed number of checks: approximate, and not repeatable from process to process.
 std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = 128);

@@ -13,7 +13,7 @@ using namespace lore;
 
 namespace {
 
-/// docs/formats.md, "all.lore".
+/// docs/manual/formats.md, "all.lore".
 struct FrameHeader {
     std::uint32_t mark, generations;
     std::uint64_t raw_length, stored_length, checksum;

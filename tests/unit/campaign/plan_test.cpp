@@ -186,7 +186,7 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
 }
 
 TEST_F(Campaign, has_every_kind_of_knowledge_and_input_of_treatments_in_its_documentation) {
-    std::string const page = read(LORE_SOURCE_DIR "/docs/campaigns.md");
+    std::string const page = read(LORE_SOURCE_DIR "/docs/manual/campaigns.md");
     for (KnowledgeKindRow const& kind : knowledge_kinds())
         EXPECT_NE(page.find("| `" + std::string{kind.key} + "` |"), std::string::npos) << kind.key;
     for (TreatmentInput const& input : treatment_inputs())
