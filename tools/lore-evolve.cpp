@@ -93,6 +93,10 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
         ->expected(1)
         ->take_all();
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
+    std::string founders;
+    app.add_option("--founders", founders,
+                   "founders file, or run whose last population the founders come from: --set founders.from=FILE")
+        ->type_name("FILE|DIR");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
     app.add_option("--archive", line.archive, "keep the ancestors of the last population, or everybody ever evaluated")
@@ -102,6 +106,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
     if (line.bench) return std::nullopt;
+    if (!founders.empty()) line.run.overrides.push_back("founders.from=" + founders);
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.directory.empty())
         throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");

@@ -129,6 +129,7 @@ std::string_view name(FileKind kind) {
     case FileKind::knowledge_base: return "knowledge base";
     case FileKind::all_individuals: return "archive of all individuals";
     case FileKind::genome: return "single genome";
+    case FileKind::founders: return "founders file";
     }
     return "file of unknown kind";
 }

@@ -14,7 +14,24 @@ std::shared_ptr<Birth const> LineageArchive::find(IndividualId id) const {
     return births[place];
 }
 
-void write_lineage(std::string const& path, Population const& population) {
+namespace {
+
+constexpr std::size_t longest_text = 65536;
+
+void put_text(OutArchive& archive, std::string const& text) {
+    put_blob(archive, std::vector<char>(text.begin(), text.end()));
+}
+
+std::string get_text(InArchive& archive) {
+    std::vector<char> text;
+    get_blob(archive, text, longest_text);
+    return {text.begin(), text.end()};
+}
+
+}   // namespace
+
+void write_lineage(std::string const& path, Population const& population,
+                   std::optional<FoundersOrigin> const& founders) {
     write_container(path, FileKind::lineage, write_with_boost([&](OutArchive& archive) {
                         put_births(archive, ancestors_of(population.members));
                         std::int32_t const generation = population.generation;
@@ -25,6 +42,9 @@ void write_lineage(std::string const& path, Population const& population) {
                             IndividualId const id = member.id();
                             archive << id;
                         }
+                        if (!founders) return;
+                        for (std::string const* text : {&founders->kind, &founders->path, &founders->checksum})
+                            put_text(archive, *text);
                     }));
 }
 
@@ -47,6 +67,10 @@ LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_vi
         }
         if (generation < 0 || place_of(lineage.births, lineage.best) == lineage.births.size())
             archive.fail("the best-of-run is missing");
+        if (archive.left() == 0) return;
+        lineage.founders.emplace();
+        for (std::string* text : {&lineage.founders->kind, &lineage.founders->path, &lineage.founders->checksum})
+            *text = get_text(archive);
     });
     return lineage;
 }

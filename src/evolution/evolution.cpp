@@ -18,12 +18,12 @@ using Newborns = std::vector<std::shared_ptr<Birth>>;
 
 std::uint32_t word(int number) { return static_cast<std::uint32_t>(number); }
 
-Newborns founders(EvolutionConfig const& config, std::uint64_t seed) {
+Newborns founders(std::vector<Genome> genomes) {
     Newborns born;
-    for (int slot = 0; slot < config.founders; ++slot) {
+    for (Genome& genome : genomes) {
         auto birth = std::make_shared<Birth>();
-        birth->id = {0, word(slot)};
-        birth->genome = founder(Stream{seed, Purpose::founder, 0, word(slot)});
+        birth->id = {0, word(static_cast<int>(born.size()))};
+        birth->genome = std::move(genome);
         born.push_back(std::move(birth));
     }
     return born;
@@ -121,14 +121,30 @@ void sign(Signature& signature, Population const& population) {
 
 }   // namespace
 
+std::vector<Genome> founder_genomes(EvolutionConfig const& config, std::uint64_t seed, std::span<Genome const> origin) {
+    int const inherited = origin.empty() ? 0 : static_cast<int>(config.founding.share * config.founders + 0.5);
+    std::vector<Genome> genomes;
+    for (int slot = 0; slot < config.founders; ++slot) {
+        if (slot >= inherited) {
+            genomes.push_back(founder(Stream{seed, Purpose::founder, 0, word(slot)}));
+            continue;
+        }
+        genomes.push_back(origin[static_cast<std::size_t>(slot) % origin.size()]);
+        if (!config.founding.mutate) continue;
+        Stream rng{seed, Purpose::founder_mutation, 0, word(slot)};
+        mutate(genomes.back(), config.mutation, config.limits, rng);
+    }
+    return genomes;
+}
+
 EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator, EvolutionState state,
-                      GenerationObserver const& observer) {
+                      GenerationObserver const& observer, std::span<Genome const> origin) {
     int const first = state.population.members.empty() ? 0 : state.population.generation + 1;
     for (int generation = first; generation <= config.generations; ++generation) {
         Stopwatch watch;
 
-        Newborns const born =
-            generation == 0 ? founders(config, seed) : breed(state.population, config, seed, generation);
+        Newborns const born = generation == 0 ? founders(founder_genomes(config, seed, origin))
+                                              : breed(state.population, config, seed, generation);
         double selection_seconds = watch.lap();
 
         DistanceKind const kind = distance_at(seed, generation, config.diversity);

@@ -125,6 +125,8 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
     auto const settings = settings_of(config);
     read_settings(TomlTable::parse(text, name), settings);
     config.arena = located(config.arena, directory);
+    if (!config.founders_from.empty())
+        config.founders_from = (std::filesystem::path{directory} / config.founders_from).lexically_normal().string();
     std::string origin = name;
     for (std::string const& override : overrides) {
         read_settings(document_of(override, settings), settings);

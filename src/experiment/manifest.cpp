@@ -24,16 +24,18 @@ constexpr std::string_view status_names[]{"running", "interrupted", "done"};
 
 Json to_json(std::vector<FileRecord> const& files) {
     Json list = Json::array();
-    for (FileRecord const& file : files)
+    for (FileRecord const& file : files) {
         list.push_back({{"role", file.role}, {"path", file.path}, {"bytes", file.bytes}, {"xxh3_64", file.checksum}});
+        if (!file.kind.empty()) list.back()["kind"] = file.kind;
+    }
     return list;
 }
 
 std::vector<FileRecord> files_from(Json const& list) {
     std::vector<FileRecord> files;
     for (Json const& file : list)
-        files.push_back(
-            {file.at("role"), file.at("path"), whole_number<std::uint64_t>(file.at("bytes")), file.at("xxh3_64")});
+        files.push_back({file.at("role"), file.at("path"), whole_number<std::uint64_t>(file.at("bytes")),
+                         file.at("xxh3_64"), file.value("kind", "")});
     return files;
 }
 
@@ -134,7 +136,7 @@ Manifest read_manifest(std::string const& path) {
 
 FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as) {
     return {role, shown_as, static_cast<std::uint64_t>(std::filesystem::file_size(path)),
-            checksum_text(checksum_of_file(path))};
+            checksum_text(checksum_of_file(path)), ""};
 }
 
 FileRecord const* find_role(std::vector<FileRecord> const& files, std::string_view role) {

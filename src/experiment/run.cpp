@@ -83,7 +83,7 @@ void mend_lineage(RunSetup const& setup) {
     FileRecord const* const listed = find_path(setup.manifest.outputs, run_file::lineage);
     bool const whole = std::filesystem::exists(path) &&
                        (listed == nullptr || record_of(listed->role, path, listed->path).checksum == listed->checksum);
-    if (!whole) write_lineage(path, setup.checkpoint->state.population);
+    if (!whole) write_lineage(path, setup.checkpoint->state.population, setup.founders_origin());
 }
 
 RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason) {
@@ -150,13 +150,14 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     Farm farm{session.world(), evaluation_in(std::move(run.context))};
     EvolutionConfig const evolution = run.setup.order.config.evolution;
     std::uint64_t const seed = run.setup.seed;
+    std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);
     RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
     Supervisor supervisor{books, evolution, options, watch,
                           state.population.members.empty() ? -1 : state.population.generation};
     try {
-        state = evolve(evolution, seed, farm, std::move(state),
-                       [&](GenerationReport const& report) { return supervisor.after_generation(report); });
+        auto const observe = [&](GenerationReport const& report) { return supervisor.after_generation(report); };
+        state = evolve(evolution, seed, farm, std::move(state), observe, founders);
     } catch (std::exception const&) {
         Error const told = failure_in_hand(supervisor.generation() + 1, genome_path);
         if (farm.broken()) end_all(session, told);

@@ -103,7 +103,7 @@ void RunBooks::write_manifest_now() { write_manifest(setup_.file(run_file::manif
 
 void RunBooks::close(EvolutionState const& state, RunStatus status, std::string const& reason) {
     if (last_checkpoint_generation_ != state.population.generation) write_checkpoint(state);
-    write_lineage(setup_.file(run_file::lineage), state.population);
+    write_lineage(setup_.file(run_file::lineage), state.population, setup_.founders_origin());
     if (all_ && status == RunStatus::done) all_->finish();
 
     Manifest& manifest = setup_.manifest;

@@ -11,8 +11,8 @@ namespace lore {
 
 namespace {
 
-std::uint64_t digest(std::string_view settings, WorkOrder const& order, std::uint64_t seed) {
-    return checksum(fmt::format("{}\n{}\n{}\n{}", settings, order.arena_text, order.knowledge_checksum, seed));
+std::string digested(std::string_view settings, WorkOrder const& order, std::uint64_t seed) {
+    return fmt::format("{}\n{}\n{}\n{}", settings, order.arena_text, order.knowledge_checksum, seed);
 }
 
 /// What the former digest put in the place of settings that do not affect results.
@@ -26,8 +26,10 @@ std::string_view former_neutral_value(std::string_view section, std::string_view
 
 }   // namespace
 
-std::uint64_t digest_of(WorkOrder const& order, std::uint64_t seed) {
-    return digest(result_settings(order.config), order, seed);
+std::uint64_t digest_of(WorkOrder const& order, std::uint64_t seed, std::string_view founders_checksum) {
+    std::string text = digested(result_settings(order.config), order, seed);
+    if (!founders_checksum.empty()) text += fmt::format("\n{}", founders_checksum);
+    return checksum(text);
 }
 
 std::uint64_t former_digest_of(std::string_view config_text, WorkOrder const& order, std::uint64_t seed) {
@@ -44,7 +46,7 @@ std::uint64_t former_digest_of(std::string_view config_text, WorkOrder const& or
         else text += fmt::format("{:<40}{}", fmt::format("{} = {}", key, neutral), line.substr(comment));
         text += '\n';
     }
-    return digest(text, order, seed);
+    return checksum(digested(text, order, seed));
 }
 
 }   // namespace lore

@@ -8,8 +8,9 @@
 namespace lore {
 
 /// All that the results of a run depend on, in one number: the settings that affect results (result_settings), the
-/// arena, the knowledge base and the seed. A checkpoint keeps it, and is only continued where it is the same.
-std::uint64_t digest_of(WorkOrder const&, std::uint64_t seed);
+/// arena, the knowledge base, the seed and, where founders are not random, the checksum of their file. A checkpoint
+/// keeps it, and is only continued where it is the same.
+std::uint64_t digest_of(WorkOrder const&, std::uint64_t seed, std::string_view founders_checksum = "");
 
 /// The same as checkpoints have it that were written up to commit e8a0ef9: of the configuration as it was rendered
 /// then, descriptions included. Only the run's own config.toml still holds these words, so its text is asked for.

@@ -1,5 +1,6 @@
 #include "run_resumption.h"
 
+#include "founders.h"
 #include "run_digest.h"
 
 #include <lore/archive/atomic_file.h>
@@ -74,6 +75,28 @@ void find_checkpoint(RunSetup& setup) {
     setup.checkpoint = std::move(found.checkpoint);
 }
 
+/// The founders are those that the run was started with, wherever they are now. Once generation 0 is past, nobody needs
+/// them.
+void find_founders(RunSetup& setup) {
+    std::string& from = setup.order.config.founders_from;
+    if (!from.empty()) from = absolute_path(from);
+    FileRecord const* const recorded = find_role(setup.manifest.inputs, file_role::founders);
+    bool const is_known = !setup.manifest.sessions.empty();   // else the digest tells
+    if (is_known && from.empty() != (recorded == nullptr))
+        throw cannot_go_on(setup, " with other founders",
+                           recorded == nullptr ? std::string{"it was started with random ones"}
+                                               : fmt::format("it was started with those of {}", recorded->path),
+                           "Set founders.from as it was, or start in another directory.");
+    if (from.empty() || (setup.checkpoint && recorded != nullptr && founders_path(from) == recorded->path)) return;
+    FileRecord const now = founders_record(from);
+    if (recorded != nullptr && recorded->checksum != now.checksum)
+        throw cannot_go_on(setup, " with other founders",
+                           fmt::format("{} is not the file it was started with", now.path),
+                           "Give that one with --founders, or start in another directory.");
+    if (recorded == nullptr) setup.manifest.inputs.push_back(now);
+    if (!setup.checkpoint) setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits);
+}
+
 void take_seed(RunSetup& setup, RunOptions const& options) {
     if (!setup.manifest.sessions.empty()) setup.seed = setup.manifest.seed;
     else setup.seed = setup.checkpoint ? setup.checkpoint->seed : options.seed.value_or(1);
@@ -99,6 +122,7 @@ void resume(RunSetup& setup, RunOptions const& options) {
     if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
     find_knowledge(setup, options);
     find_checkpoint(setup);
+    find_founders(setup);
     take_seed(setup, options);
     choose_archive(setup, options);
 }
@@ -107,7 +131,8 @@ void check_digest(RunSetup& setup) {
     if (setup.checkpoint && setup.checkpoint->seed != setup.seed)
         throw cannot_go_on(setup, "", fmt::format("{} has another seed than its checkpoint", run_file::manifest),
                            "Restore it.");
-    setup.digest = digest_of(setup.order, setup.seed);
+    auto const founders = setup.founders_origin();
+    setup.digest = digest_of(setup.order, setup.seed, founders ? founders->checksum : "");
     if (!setup.checkpoint || setup.checkpoint->config_digest == setup.digest) return;
     setup.has_former_digest = setup.checkpoint->config_digest ==
                               former_digest_of(text_of(setup.file(run_file::config)), setup.order, setup.seed);

@@ -1,5 +1,6 @@
 #include "run_setup.h"
 
+#include "founders.h"
 #include "run_resumption.h"
 
 #include <lore/archive/atomic_file.h>
@@ -56,6 +57,11 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     if (!options.knowledge_base.empty())
         setup.manifest.inputs.push_back(
             record_of(file_role::knowledge, options.knowledge_base, setup.order.knowledge_path));
+    if (std::string& from = setup.order.config.founders_from; !from.empty()) {
+        from = absolute_path(from);
+        setup.manifest.inputs.push_back(founders_record(from));
+        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits);
+    }
 }
 
 /// A run's configuration is the last of what its start writes, and so tells that the rest is there.
@@ -104,6 +110,12 @@ DirectoryLock::DirectoryLock(std::string const& directory) {
 DirectoryLock::~DirectoryLock() { ::close(file_); }
 
 std::string RunSetup::file(std::string_view name) const { return (fs::path{directory} / name).string(); }
+
+std::optional<FoundersOrigin> RunSetup::founders_origin() const {
+    FileRecord const* const record = find_role(manifest.inputs, file_role::founders);
+    if (record == nullptr) return std::nullopt;
+    return FoundersOrigin{record->kind, record->path, record->checksum};
+}
 
 PreparedRun prepare_run(RunOptions const& options) {
     PreparedRun run;

@@ -3,6 +3,7 @@
 #include "work_order.h"
 
 #include <lore/archive/checkpoint.h>
+#include <lore/archive/lineage_file.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/run.h>
 
@@ -31,12 +32,14 @@ struct RunSetup {
     std::uint64_t digest = 0;         ///< of all that results depend on
     bool has_former_digest = false;   ///< the checkpoint's is of the former kind
     bool archive_all = false;
+    std::vector<Genome> founders;           ///< where generation 0 is still to be made from founders.from
     Manifest manifest;                      ///< inputs and former sessions
     std::optional<Checkpoint> checkpoint;   ///< to go on from
     std::string warning;
     bool already_done = false;
 
     std::string file(std::string_view name) const;
+    std::optional<FoundersOrigin> founders_origin() const;   ///< as the manifest's inputs say
 };
 
 struct PreparedRun {

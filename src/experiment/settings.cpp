@@ -143,6 +143,14 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("use_diversity", evolution.use_diversity, "objective: behavioral diversity");
     d.add("use_shaping", evolution.use_shaping, "objective: reward shaping; set by --kb");
 
+    d.section("founders");
+    // As with the arena, what lies there counts.
+    d.add("from", config.founders_from,
+          "a run whose last population founders come from, or a founders file; empty: all are random",
+          Affects::nothing);
+    d.add("share", evolution.founding.share, 0.0, 1.0, "of the founders that come from there; the others are random");
+    d.add("mutate", evolution.founding.mutate, "one mutation each of those that come from there");
+
     d.section("diversity");
     d.add("period", evolution.diversity.period, 1, any,
           "the behavioral distance is drawn anew every so many generations");

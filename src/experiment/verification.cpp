@@ -3,6 +3,7 @@
 #include <lore/archive/all_individuals.h>
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/checkpoint.h>
+#include <lore/archive/founders_file.h>
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
@@ -28,8 +29,11 @@ std::string verify_container(std::string const& path) {
     switch (kind) {
     case FileKind::lineage: {
         LineageArchive const lineage = read_lineage(path);
-        return fmt::format("lineage archive of {} individuals, generation {}", lineage.births.size(),
-                           lineage.generation);
+        return fmt::format("lineage archive of {} individuals, generation {}{}", lineage.births.size(),
+                           lineage.generation,
+                           lineage.founders ? fmt::format(", founders from {} ({} {})", lineage.founders->kind,
+                                                          lineage.founders->path, lineage.founders->checksum)
+                                            : "");
     }
     case FileKind::checkpoint: {
         Checkpoint const checkpoint = unpack_checkpoint(read_container(path, kind), path);
@@ -40,6 +44,10 @@ std::string verify_container(std::string const& path) {
     case FileKind::all_individuals: {
         AllIndividualsSummary const all = check_all_individuals(path);
         return fmt::format("archive of all {} individuals, {} generations", all.individuals, all.generations);
+    }
+    case FileKind::founders: {
+        FoundersFile const founders = read_founders(path);
+        return fmt::format("founders file of {} genomes: {}", founders.genomes.size(), founders.kind);
     }
     case FileKind::genome: return fmt::format("genome of individual {}", text(read_genome(path).id));
     }

@@ -5,6 +5,7 @@
 #include <lore/archive/all_individuals.h>
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/checkpoint.h>
+#include <lore/archive/founders_file.h>
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/lineage_file.h>
@@ -25,6 +26,7 @@ namespace lore::test {
 
 inline constexpr int sample_steps = 20;   ///< of an evaluation: files of a few kB
 inline constexpr char sample_knowledge[] = "sample.lorekb";
+inline constexpr char sample_founders[] = "founders.lore";
 inline constexpr char sample_array[] = "windows.npy";
 inline constexpr char sample_trace[] = "trace.csv", sample_packed_trace[] = "trace.csv.gz";
 
@@ -55,6 +57,12 @@ inline EvolutionState write_sample_evolution(std::filesystem::path const& direct
     write_genome(directory / run_file::failed_genome,
                  {{3, 1}, end.population.members[0].birth->genome, 1, "out of memory"});
     return end;
+}
+
+inline void write_sample_founders(std::filesystem::path const& directory) {
+    FoundersFile founders{"clones of a knowledge base", R"({"base": "kb.lorekb", "seed": 1})", {}};
+    for (std::uint32_t slot = 0; slot < 2; ++slot) founders.genomes.push_back(founder(Stream{slot, Purpose::founder}));
+    write_founders(directory / sample_founders, founders);
 }
 
 inline void write_sample_knowledge(std::filesystem::path const& directory) {
@@ -134,6 +142,7 @@ inline void write_sample_documents(std::filesystem::path const& directory) {
 /// A small file of every kind that Lore writes, under the names that it has in the directory of a run.
 inline EvolutionState write_sample_files(std::string const& directory) {
     std::filesystem::create_directories(directory);
+    write_sample_founders(directory);
     write_sample_knowledge(directory);
     write_sample_tables(directory);
     write_sample_documents(directory);

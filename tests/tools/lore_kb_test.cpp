@@ -1,6 +1,7 @@
 #include "support/program.h"
 #include "support/small_run.h"
 
+#include <lore/archive/founders_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
 
@@ -12,6 +13,7 @@
 #include <sstream>
 
 using namespace lore;
+using lore::test::Ran;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -85,6 +87,41 @@ TEST_F(LoreKb, builds_from_everybody_and_from_another_individual) {
     EXPECT_EQ(read_knowledge_base(scratch.file("other.lorekb")).config(), (KnowledgeConfig{10, 1.0f}));
     expect_refusal("build run --individual 99.0 --out x.lorekb", 2, "99.0");
     expect_refusal("build run --individual best-of --out x.lorekb", 2, "GENERATION.SLOT");
+}
+
+TEST_F(LoreKb, clones_founders_and_says_how_well_they_fit) {
+    expect_done("build run --out kb.lorekb -q");
+    Ran const told = run("clone kb.lorekb --count 3 --windows 20 --seed 1 --out a.lore");
+    EXPECT_EQ(told.exit_code, 0) << told.errors;
+    EXPECT_THAT(told.output, HasSubstr("wrote a.lore: 3 founders, each fitted to 20 windows"));
+    EXPECT_THAT(told.output, HasSubstr("left_wheel"));
+    auto const json = nlohmann::json::parse(
+        run("clone kb.lorekb --count 3 --windows 20 --seed 1 --hidden 2 --out hidden.lore --json").output);
+    EXPECT_EQ(json.at("hidden"), 2);
+    EXPECT_LE(json.at("fit").at("collect").at("cross_entropy"), json.at("constant").at("collect").at("cross_entropy"));
+    FoundersFile const founders = read_founders(scratch.file("a.lore"));
+    EXPECT_EQ(founders.genomes.size(), 3u);
+    EXPECT_THAT(founders.origin, HasSubstr("\"base\": \"kb.lorekb\""));
+    EXPECT_EQ(read_founders(scratch.file("hidden.lore")).genomes[0].hidden_count(), 2);
+    EXPECT_THAT(run("verify a.lore").output,
+                HasSubstr("founders file of 3 genomes: clones of a knowledge base, whole"));
+
+    expect_done("clone kb.lorekb --count 3 --windows 20 --seed 1 --out again.lore");
+    expect_done("clone kb.lorekb --count 3 --windows 20 --seed 2 --out other.lore");
+    EXPECT_EQ(read_founders(scratch.file("again.lore")).genomes, founders.genomes);
+    EXPECT_NE(read_founders(scratch.file("other.lore")).genomes, founders.genomes);
+}
+
+TEST_F(LoreKb, refuses_clones_that_cannot_be) {
+    expect_refusal("clone missing.lorekb --out never", 1, "missing.lorekb");
+    expect_done("build run --out kb.lorekb -q");
+    expect_refusal("clone kb.lorekb --count 0 --out never", 2, "--count");
+    expect_refusal("clone kb.lorekb --hidden 65 --out never", 2, "--hidden");
+    expect_refusal("clone kb.lorekb --windows 50001 --out never", 2, "Ask for 1 to 50000");
+    expect_refusal("clone kb.lorekb --seed -1 --out never", 2, "no whole number from 0");
+    expect_refusal("clone kb.lorekb --out nowhere/never", 2, "there is no directory nowhere");
+    expect_done("reduce kb.lorekb --min-value 1000 --out empty.lorekb");
+    expect_refusal("clone empty.lorekb --out never", 2, "no features");
 }
 
 TEST_F(LoreKb, finds_every_window_of_the_lineage_in_its_own_base) {

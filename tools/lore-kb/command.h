@@ -39,6 +39,7 @@ void add_product(CLI::App&, Program&);
 void add_randomize(CLI::App&, Program&);
 void add_reduce(CLI::App&, Program&);
 void add_export(CLI::App&, Program&);
+void add_clone(CLI::App&, Program&);
 void add_verify(CLI::App&, Program&);
 
 // Options that several subcommands have.

@@ -27,6 +27,7 @@ constexpr char const* examples =
     "  lore-kb randomize kb1.lorekb --seed 1 --out kb1random.lorekb\n"
     "  lore-kb reduce kb1.lorekb --top 1000 --out top.lorekb\n"
     "  lore-kb export kb1.lorekb --npy kb1\n"
+    "  lore-kb clone kb1.lorekb --out founders.lore                  for lore-evolve --founders founders.lore\n"
     "  lore-kb verify runs/s1/lineage.lore\n"
     "'lore-kb COMMAND --help' has the options of a command.\n"
     "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.";
@@ -43,7 +44,7 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.add_flag("-q,--quiet", program.quiet, "say nothing but errors");
     for (auto const add : {kb::add_build, kb::add_info, kb::add_query, kb::add_product, kb::add_randomize,
-                           kb::add_reduce, kb::add_export, kb::add_verify})
+                           kb::add_reduce, kb::add_export, kb::add_clone, kb::add_verify})
         add(app, program);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;

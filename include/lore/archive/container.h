@@ -20,7 +20,8 @@ enum class FileKind : std::uint32_t {
     checkpoint = 2,
     knowledge_base = 3,
     all_individuals = 4,
-    genome = 5
+    genome = 5,
+    founders = 6
 };
 std::string_view name(FileKind);
 

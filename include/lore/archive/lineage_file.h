@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,17 +12,27 @@
 
 namespace lore {
 
+/// Where the founders of a run came from that were not random.
+struct FoundersOrigin {
+    std::string kind;       ///< "last population of a run", "clones of a knowledge base"
+    std::string path;       ///< of the file: lineage.lore of that run, or a founders file
+    std::string checksum;   ///< XXH3-64 of that file, 16 hexadecimal digits
+    friend bool operator==(FoundersOrigin const&, FoundersOrigin const&) = default;
+};
+
 /// The lineages of a run, read back: every ancestor of the last population, in order of birth.
 struct LineageArchive {
     std::vector<std::shared_ptr<Birth const>> births;   ///< in order of birth, parents linked
     std::vector<IndividualId> last_population;          ///< the members of the last population
     IndividualId best;                                  ///< best-of-run
     int generation = 0;                                 ///< of the last population
+    std::optional<FoundersOrigin> founders;             ///< none: all founders were random
     /// Throws Error if no such individual is archived.
     std::shared_ptr<Birth const> find(IndividualId) const;
 };
 
-void write_lineage(std::string const& path, Population const&);
+/// Without an origin of the founders, the bytes are those of a run that knows of none.
+void write_lineage(std::string const& path, Population const&, std::optional<FoundersOrigin> const& = std::nullopt);
 LineageArchive read_lineage(std::string const& path);
 /// From a container's payload; `name` is what errors call it.
 LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name);

@@ -9,15 +9,17 @@ namespace lore {
 
 /// Who asks for randomness. The numbers are part of every result: never renumber, only append.
 enum class Purpose : std::uint32_t {
-    founder = 1,      ///< genes of the random individuals of generation 0
-    tournament = 2,   ///< pairing of parents and coins
-    mutation = 3,     ///< one child's mutation
-    distance = 4,     ///< which behavioral distance serves a period
-    tie = 5,          ///< order among equals in sorts and cuts
-    randomize = 6,    ///< values of a "KB random"
-    bootstrap = 7,    ///< resampling for confidence bands
-    permute = 8,      ///< which feature gets which value of a permuted knowledge base
-    test = 99         ///< inputs of property tests
+    founder = 1,            ///< genes of the random individuals of generation 0
+    tournament = 2,         ///< pairing of parents and coins
+    mutation = 3,           ///< one child's mutation
+    distance = 4,           ///< which behavioral distance serves a period
+    tie = 5,                ///< order among equals in sorts and cuts
+    randomize = 6,          ///< values of a "KB random"
+    bootstrap = 7,          ///< resampling for confidence bands
+    permute = 8,            ///< which feature gets which value of a permuted knowledge base
+    founder_mutation = 9,   ///< the one mutation of a founder that comes from elsewhere
+    clone = 10,             ///< what a founder cloned from a knowledge base imitates, and its random weights
+    test = 99               ///< inputs of property tests
 };
 
 /// A stream of random numbers that is a function of who asks: Philox-4x32-10 (Salmon et al. 2011) keyed by the run's

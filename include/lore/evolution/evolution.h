@@ -9,6 +9,13 @@
 
 namespace lore {
 
+/// How generation 0 is made where genomes from elsewhere are given (the last population of another run, or clones of a
+/// knowledge base).
+struct FoundingConfig {
+    double share = 1;     ///< Of the founders that come from there: round(share * founders), the first slots.
+    bool mutate = true;   ///< One mutation each.
+};
+
 /// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used.
 struct EvolutionConfig {
     int population = 200;     ///< survivors of a generation, and children of one. Paper: 200.
@@ -20,6 +27,7 @@ struct EvolutionConfig {
     DiversityConfig diversity;
     MutationConfig mutation;
     NetworkLimits limits;
+    FoundingConfig founding;
 };
 
 /// Where evolution stands: all that a checkpoint must keep.
@@ -41,9 +49,16 @@ struct GenerationReport {
 using GenerationObserver = std::function<bool(GenerationReport const&)>;
 
 /// The paper's method (NSGA-II with dynamic behavioral diversity) from `state`, or from the founders where it is
-/// empty, to config.generations or until the observer says stop. A pure function of config, seed and evaluator.
+/// empty, to config.generations or until the observer says stop. A pure function of config, seed, evaluator and origin.
+///
+/// `origin` are the genomes that founders come from, as config.founding says; none: all founders are random.
+/// Precondition: they are valid and within config.limits.
 EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state,
-                      GenerationObserver const&);
+                      GenerationObserver const&, std::span<Genome const> origin = {});
+
+/// Genomes of generation 0. Slot i of those that come from `origin` takes its genome i mod n, mutated once by the
+/// stream (seed, founder_mutation, 0, i); the others are random: founder(), from the stream (seed, founder, 0, i).
+std::vector<Genome> founder_genomes(EvolutionConfig const&, std::uint64_t seed, std::span<Genome const> origin);
 
 /// Most balls in the population; ties: the earliest born, then the lowest slot.
 Individual const& best_of_run(Population const&);

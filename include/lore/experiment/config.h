@@ -16,6 +16,8 @@ struct ExperimentConfig {
     std::string arena = "collectball";   ///< built-in arena's name, or a path, relative to the configuration file;
                                          ///< in an override, to the working directory
     std::string task = "source";         ///< one of the arena's tasks
+    std::string founders_from;   ///< directory of a run, or a founders file; "": random founders. Relative paths
+                                 ///< start where those of `arena` do
     EpisodeConfig episode;
     EvolutionConfig evolution;
     KnowledgeConfig knowledge;          ///< what a --kb must fit

@@ -15,7 +15,7 @@ std::string_view name(RunStatus);
 /// Parts that files play in a run.
 namespace file_role {
 inline constexpr char configuration[] = "configuration", arena[] = "arena", knowledge[] = "knowledge base",
-                      output[] = "output";
+                      founders[] = "founders", output[] = "output";
 }   // namespace file_role
 
 /// A file that went into a run or came out of it, and what it was like.
@@ -23,7 +23,8 @@ struct FileRecord {
     std::string role;   ///< a file_role
     std::string path;   ///< inputs as given, outputs relative to the run's directory
     std::uint64_t bytes = 0;
-    std::string checksum;   ///< XXH3-64, 16 hexadecimal digits
+    std::string checksum;    ///< XXH3-64, 16 hexadecimal digits
+    std::string kind = {};   ///< of founders: FoundersOrigin::kind; else empty, and not written
 };
 
 /// One start of the program on this run.

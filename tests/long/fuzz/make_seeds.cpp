@@ -41,6 +41,7 @@ void files(Seeds const& seeds, fs::path const& samples) {
     for (Sealed const& one : {Sealed{"lineage", FileKind::lineage, run_file::lineage},
                               Sealed{"checkpoint", FileKind::checkpoint, run_file::checkpoint},
                               Sealed{"genome", FileKind::genome, run_file::failed_genome},
+                              Sealed{"founders", FileKind::founders, sample_founders},
                               Sealed{"knowledge", FileKind::knowledge_base, sample_knowledge}}) {
         seeds.write(one.target, "payload", read_container(samples / one.file, one.kind));
         seeds.write("container", one.target, read_file(samples / one.file));

@@ -43,6 +43,22 @@ TEST(LineageFile, gives_back_every_ancestor_of_the_last_population_linked_and_in
     EXPECT_THROW(lineage.find({1, 999}), Error);
 }
 
+TEST(LineageFile, says_where_founders_came_from_and_without_that_has_the_bytes_it_always_had) {
+    Scratch const scratch;
+    Population const population = evolved(3).population;
+    FoundersOrigin const origin{"clones of a knowledge base", "/work/founders.lore", "0123456789abcdef"};
+    write_lineage(scratch.file("random"), population);
+    write_lineage(scratch.file("cloned"), population, origin);
+    EXPECT_EQ(read_lineage(scratch.file("random")).founders, std::nullopt);
+    EXPECT_EQ(read_lineage(scratch.file("cloned")).founders, origin);
+    Bytes const random = read_container(scratch.file("random"), FileKind::lineage);
+    Bytes const cloned = read_container(scratch.file("cloned"), FileKind::lineage);
+    ASSERT_GT(cloned.size(), random.size());
+    EXPECT_TRUE(std::equal(random.begin(), random.end(), cloned.begin()));
+    for (std::size_t length = random.size() + 1; length < cloned.size(); ++length)
+        EXPECT_THROW(unpack_lineage(std::span{cloned}.first(length), "x"), Error) << length;
+}
+
 TEST(LineageFile, refuses_a_payload_cut_at_any_length_behind_a_right_checksum) {
     Scratch const scratch;
     write_lineage(scratch.file("a"), evolved(3).population);

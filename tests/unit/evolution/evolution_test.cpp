@@ -43,6 +43,53 @@ TEST(Evolve, is_a_pure_function_of_configuration_and_seed) {
     EXPECT_NE(signature_of(small_config(), 1), signature_of(other, 1));
 }
 
+TEST(FounderGenomes, are_random_where_none_are_given_whatever_the_settings_say) {
+    EvolutionConfig config = small_config();
+    config.founding = {0.5, false};
+    auto const genomes = founder_genomes(config, 1, {});
+    ASSERT_EQ(genomes.size(), 40u);
+    for (std::uint32_t slot = 0; slot < 40; ++slot)
+        EXPECT_EQ(genomes[slot], founder(Stream{1, Purpose::founder, 0, slot}));
+}
+
+TEST(FounderGenomes, take_those_given_in_turn_and_random_ones_for_the_rest) {
+    EvolutionConfig config = small_config();
+    config.founding = {0.25, false};
+    std::vector<Genome> const given{founder(Stream{7, Purpose::test, 0, 0}), founder(Stream{7, Purpose::test, 0, 1}),
+                                    founder(Stream{7, Purpose::test, 0, 2})};
+    auto const genomes = founder_genomes(config, 1, given);
+    ASSERT_EQ(genomes.size(), 40u);
+    for (std::uint32_t slot = 0; slot < 40; ++slot)
+        EXPECT_EQ(genomes[slot], slot < 10 ? given[slot % 3] : founder(Stream{1, Purpose::founder, 0, slot})) << slot;
+    config.founding.share = 0;
+    EXPECT_EQ(founder_genomes(config, 1, given), founder_genomes(config, 1, {}));
+}
+
+TEST(FounderGenomes, are_mutated_once_each_by_a_stream_of_their_own) {
+    EvolutionConfig const config = small_config();
+    std::vector<Genome> const given{founder(Stream{7, Purpose::test})};
+    auto const genomes = founder_genomes(config, 1, given);
+    for (std::uint32_t slot = 0; slot < 40; ++slot) {
+        Genome expected = given[0];
+        Stream rng{1, Purpose::founder_mutation, 0, slot};
+        mutate(expected, config.mutation, config.limits, rng);
+        EXPECT_EQ(genomes[slot], expected);
+    }
+    EXPECT_NE(genomes[0], genomes[1]);
+    EXPECT_NE(founder_genomes(config, 2, given), genomes);
+}
+
+TEST(Evolve, starts_from_the_genomes_that_it_is_given) {
+    SyntheticEvaluator evaluator;
+    std::vector<Genome> const given{founder(Stream{7, Purpose::test})};
+    auto const signature = [&](std::span<Genome const> origin) {
+        return evolve(small_config(), 1, evaluator, {}, {}, origin).signature.text();
+    };
+    EXPECT_EQ(signature({}), signature_of(small_config(), 1));
+    EXPECT_EQ(signature(given), signature(given));
+    EXPECT_NE(signature(given), signature({}));
+}
+
 TEST(Evolve, does_not_depend_on_the_order_in_which_the_work_is_done) {
     EvolutionConfig many = small_config();   // so many that distances are measured while others are under way
     many.population = 200;

@@ -112,6 +112,15 @@ TEST(Config, says_where_a_value_came_from_that_does_not_go_with_the_others) {
                                                        "is less than the population of 200). Take at least as many.");
 }
 
+TEST(Config, looks_for_founders_beside_itself_and_where_an_override_is_typed) {
+    EXPECT_EQ(parse("").founders_from, "");
+    EXPECT_EQ(parse("[founders]\nfrom = \"runs/s1\"").founders_from, "jobs/runs/s1");
+    EXPECT_EQ(parse("[founders]\nfrom = \"/runs/s1\"").founders_from, "/runs/s1");
+    EXPECT_EQ(parse("", {"founders.from=f.lore"}).founders_from, "f.lore");
+    EXPECT_NE(complaint("[founders]\nshare = 1.5\n"), "");
+    EXPECT_NE(complaint("[founders]\nmutate = 1\n"), "");
+}
+
 TEST(Config, looks_for_an_arena_file_beside_itself_and_leaves_names_alone) {
     EXPECT_EQ(parse("arena = \"arenas/a.toml\"").arena, "jobs/arenas/a.toml");
     EXPECT_EQ(parse("arena = \"/arenas/a.toml\"").arena, "/arenas/a.toml");

@@ -39,6 +39,7 @@ TEST(RunDigest, depends_on_settings_that_affect_results_arena_knowledge_base_and
          {"name=other", "arena=other", "evolution.generations=7", "checkpoint.generations=7", "checkpoint.minutes=7"})
         EXPECT_EQ(digest_with({other}), plain) << other;
     EXPECT_NE(digest_of(order_with({}), 2), plain);
+    EXPECT_NE(digest_of(order_with({}), 1, "0123456789abcdef"), plain);
     WorkOrder order = order_with({});
     order.arena_text += " changed";
     EXPECT_NE(digest_of(order, 1), plain);

@@ -104,6 +104,13 @@ std::string genome_told(std::string const& path) {
     return fmt::format("{} on rank {}: {}, {}\n", text(failed.id), failed.rank, failed.reason, told(failed.genome));
 }
 
+std::string founders_told(std::string const& path) {
+    FoundersFile const founders = read_founders(path);
+    std::string story = fmt::format("{}\n{}\n", founders.kind, founders.origin);
+    for (Genome const& genome : founders.genomes) story += told(genome) + "\n";
+    return story;
+}
+
 std::string array_told(std::string const& path) {
     NpyArray const array = read_npy(path);
     return fmt::format("{}\n{}\n", fmt::join(array.shape, " "), fmt::join(array.values, " "));
@@ -145,13 +152,19 @@ struct Kind {
     std::function<void(std::string const&)> read = {};   ///< where telling does more than reading
 };
 
-std::map<std::string, Kind> const kinds{
-    {run_file::lineage, {lineage_told, true}},     {run_file::checkpoint, {checkpoint_told, true}},
-    {run_file::all_individuals, {all_told, true}}, {run_file::failed_genome, {genome_told, true}},
-    {sample_knowledge, {knowledge_told, true}},    {sample_array, {array_told, false}},
-    {sample_trace, {trace_told, false}},           {sample_packed_trace, {trace_told, false}},
-    {run_file::progress, {progress_told, false}},  {run_file::manifest, {manifest_told, false, read_manifest}},
-    {run_file::config, {config_told, false}},      {run_file::arena, {arena_told, false}}};
+std::map<std::string, Kind> const kinds{{run_file::lineage, {lineage_told, true}},
+                                        {run_file::checkpoint, {checkpoint_told, true}},
+                                        {run_file::all_individuals, {all_told, true}},
+                                        {run_file::failed_genome, {genome_told, true}},
+                                        {sample_founders, {founders_told, true}},
+                                        {sample_knowledge, {knowledge_told, true}},
+                                        {sample_array, {array_told, false}},
+                                        {sample_trace, {trace_told, false}},
+                                        {sample_packed_trace, {trace_told, false}},
+                                        {run_file::progress, {progress_told, false}},
+                                        {run_file::manifest, {manifest_told, false, read_manifest}},
+                                        {run_file::config, {config_told, false}},
+                                        {run_file::arena, {arena_told, false}}};
 
 /// Every byte; of arenas only some, because whatever is still an arena is surveyed.
 std::size_t stride(std::string const& file) { return file == run_file::arena ? 97 : 1; }

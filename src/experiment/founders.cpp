@@ -1,0 +1,65 @@
+#include "founders.h"
+
+#include <lore/archive/founders_file.h>
+#include <lore/core/error.h>
+#include <lore/experiment/run_directory.h>
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+std::vector<Genome> last_population(std::string const& directory) {
+    LineageArchive const lineage = open_run(directory).lineage;
+    std::vector<Genome> genomes;
+    for (IndividualId const id : lineage.last_population) genomes.push_back(lineage.find(id)->genome);
+    return genomes;
+}
+
+}   // namespace
+
+std::string absolute_path(std::string const& path) {
+    return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+std::string founders_path(std::string const& from) {
+    return std::filesystem::is_directory(from) ? (std::filesystem::path{from} / run_file::lineage).string() : from;
+}
+
+FileRecord founders_record(std::string const& from) {
+    bool const is_run = std::filesystem::is_directory(from);
+    std::string const path = founders_path(from);
+    if (!std::filesystem::exists(path))
+        throw Error(fmt::format("no founders in {}", from),
+                    is_run ? fmt::format("there is no {}, which is written when a run stops or ends", run_file::lineage)
+                           : std::string{"no such file"},
+                    "Give the directory of a finished run, or a file that 'lore-kb clone' wrote.");
+    FileRecord record = record_of(file_role::founders, path, path);
+    record.kind = is_run ? "last population of a run" : read_founders(path).kind;
+    return record;
+}
+
+std::vector<Genome> read_founder_genomes(std::string const& from, NetworkLimits const& limits) {
+    std::vector<Genome> genomes =
+        std::filesystem::is_directory(from) ? last_population(from) : read_founders(from).genomes;
+    for (std::size_t i = 0; i < genomes.size(); ++i) {
+        auto const refuse = [&](std::string const& reason, std::string_view setting) {
+            throw UsageError(fmt::format("{} does not fit the run", from),
+                             fmt::format("its genome {} has {}", i, reason),
+                             fmt::format("Set {} higher, or take other founders.", setting));
+        };
+        if (genomes[i].hidden_count() > limits.max_hidden)
+            refuse(
+                fmt::format("{} hidden neurons, limits.max_hidden is {}", genomes[i].hidden_count(), limits.max_hidden),
+                "limits.max_hidden");
+        if (std::cmp_greater(genomes[i].edges.size(), limits.max_edges))
+            refuse(fmt::format("{} connections, limits.max_edges is {}", genomes[i].edges.size(), limits.max_edges),
+                   "limits.max_edges");
+    }
+    return genomes;
+}
+
+}   // namespace lore

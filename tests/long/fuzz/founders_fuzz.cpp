@@ -1,0 +1,13 @@
+// A founders file behind its checksum.
+
+#include "fuzz_input.h"
+
+#include <lore/archive/founders_file.h>
+
+using namespace lore;
+
+void read_input(std::span<std::byte const> input) {
+    fuzz::accepts([&] {
+        for (Genome const& genome : unpack_founders(input, "fuzz").genomes) fuzz::demand(why_invalid(genome).empty());
+    });
+}

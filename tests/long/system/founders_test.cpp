@@ -1,0 +1,109 @@
+// Founders from elsewhere: clones of a knowledge base and another run's last population, on any number of ranks.
+
+#include "system/evolve_command.h"
+
+#include <gmock/gmock.h>
+
+using namespace lore;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// A small source run, its knowledge base and founders cloned from it.
+class Founders : public ::testing::Test {
+protected:
+    Founders() {
+        expect_done(evolve(config, source));
+        expect_done({program("lore-kb"), "build", source, "--out", base, "-q"});
+        expect_done({program("lore-kb"), "clone", base, "--count", "10", "--windows", "30", "--out", clones, "-q"});
+    }
+    void expect_done(std::vector<std::string> const& words) {
+        Command command{scratch, words};
+        ASSERT_EQ(command.wait(), 0) << command.err();
+    }
+    std::string signature_of(std::string const& run, std::vector<std::string> const& more, int ranks = 0) {
+        auto const launcher = ranks > 0 ? on_ranks(ranks) : std::vector<std::string>{};
+        Command command{scratch, launcher + evolve(config, scratch.file(run), more)};
+        EXPECT_EQ(command.wait(), 0) << command.err();
+        return signature(command);
+    }
+    void expect_refusal(std::vector<std::string> const& words, int code, std::string const& saying) {
+        Command command{scratch, words};
+        EXPECT_EQ(command.wait(), code);
+        EXPECT_THAT(command.err(), HasSubstr(saying));
+        std::string const said = command.err();
+        EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
+    }
+
+    Scratch scratch;
+    std::string config = small_config(scratch, 20);
+    std::string source = scratch.file("source"), base = scratch.file("kb.lorekb"), clones = scratch.file("clones.lore");
+};
+
+}   // namespace
+
+TEST_F(Founders, give_the_same_run_on_any_number_of_ranks_and_under_any_spelling) {
+    for (std::string const& from : {clones, source}) {
+        std::string const name = from == clones ? "c" : "p";
+        std::string const expected = signature_of(name + "1", {"--founders", from});
+        EXPECT_EQ(signature_of(name + "2", {"--founders", from}, 2), expected);
+        EXPECT_EQ(results(scratch.file(name + "1")), results(scratch.file(name + "2")));
+        EXPECT_EQ(signature_of(name + "3", {"--set", "founders.from=" + from}), expected);
+        EXPECT_NE(signature_of(name + "4", {"--founders", from, "--set", "founders.share=0.5"}), expected);
+        EXPECT_NE(signature_of(name + "5", {"--founders", from, "--set", "founders.mutate=false"}), expected);
+        EXPECT_NE(signature_of(name + "6", {}), expected);
+    }
+    EXPECT_THAT(file_text(scratch.file("c1/manifest.json")), HasSubstr("\"kind\": \"clones of a knowledge base\""));
+    EXPECT_THAT(file_text(scratch.file("p1/manifest.json")), HasSubstr("\"kind\": \"last population of a run\""));
+    Command told{scratch, {program("lore-kb"), "verify", scratch.file("p1/lineage.lore")}};
+    EXPECT_EQ(told.wait(), 0);
+    EXPECT_THAT(told.out(), HasSubstr("founders from last population of a run (" + source + "/lineage.lore"));
+}
+
+TEST_F(Founders, are_needed_no_more_once_generation_0_is_past) {
+    std::string const whole = scratch.file("whole"), stopped = scratch.file("stopped");
+    std::string const expected = signature_of("whole", {"--founders", clones});
+    Command start{scratch, evolve(config, stopped, {"--founders", clones, "--max-time", "0"})};
+    EXPECT_EQ(start.wait(), 75) << start.err();
+    std::filesystem::rename(clones, scratch.file("moved.lore"));
+    EXPECT_EQ(signature_of("stopped", {"--founders", clones, "--resume"}), expected);
+    EXPECT_EQ(results(stopped), results(whole));
+}
+
+TEST_F(Founders, of_a_resumed_run_are_those_it_was_started_with) {
+    std::string const run = scratch.file("run"), moved = scratch.file("moved.lore"), other = scratch.file("other.lore");
+    expect_done(
+        {program("lore-kb"), "clone", base, "--count", "10", "--windows", "30", "--seed", "2", "--out", other, "-q"});
+    std::filesystem::copy_file(clones, moved);
+    Command start{scratch, evolve(config, run, {"--founders", clones, "--max-time", "0"})};
+    EXPECT_EQ(start.wait(), 75) << start.err();
+    expect_refusal(evolve(config, run, {"--resume", "--founders", other}), 2, "not the file it was started with");
+    expect_refusal(evolve(config, run, {"--resume"}), 2, "it was started with those of " + clones);
+    expect_refusal(evolve(config, run, {"--resume", "--founders", clones, "--set", "founders.share=0.5"}), 2,
+                   "it was started with founders.share = 1, not 0.5");
+    Command random{scratch, evolve(config, scratch.file("random"), {"--max-time", "0"})};
+    EXPECT_EQ(random.wait(), 75) << random.err();
+    expect_refusal(evolve(config, scratch.file("random"), {"--resume", "--founders", clones}), 2,
+                   "it was started with random ones");
+    EXPECT_EQ(signature_of("run", {"--resume", "--founders", moved}), signature_of("whole", {"--founders", clones}));
+
+    // Killed before the first checkpoint, generation 0 is made again.
+    for (char const* const late : {"run/checkpoint.lore", "run/checkpoint-older.lore"})
+        std::filesystem::remove(scratch.file(late));
+    std::filesystem::copy_file(other, clones, std::filesystem::copy_options::overwrite_existing);
+    expect_refusal(evolve(config, run, {"--resume", "--founders", clones}), 2, "not the file it was started with");
+}
+
+TEST_F(Founders, that_do_not_fit_are_refused_and_nothing_is_written) {
+    std::string const never = scratch.file("never"), deep = scratch.file("deep.lore");
+    expect_done(
+        {program("lore-kb"), "clone", base, "--count", "2", "--windows", "5", "--hidden", "15", "--out", deep, "-q"});
+    expect_refusal(evolve(config, never, {"--founders", deep}), 2, "261 connections, limits.max_edges is 250");
+    expect_refusal(evolve(config, never, {"--founders", deep, "--set", "limits.max_hidden=14"}), 2,
+                   "15 hidden neurons, limits.max_hidden is 14");
+    expect_refusal(evolve(config, never, {"--founders", base}), 1, "it is a knowledge base, not a founders file");
+    expect_refusal(evolve(config, never, {"--founders", scratch.file("missing")}), 1, "no such file");
+    expect_refusal(evolve(config, never, {"--founders", scratch.path()}), 1, "there is no lineage.lore");
+    EXPECT_FALSE(exists(never));
+    signature_of("deep", {"--founders", deep, "--set", "limits.max_edges=300"});
+}

@@ -1,0 +1,93 @@
+#include "command.h"
+
+#include <lore/archive/checksum.h>
+#include <lore/archive/founders_file.h>
+#include <lore/archive/knowledge_file.h>
+#include <lore/core/progress.h>
+#include <lore/knowledge/clone.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace lore::kb {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Fits = std::array<EffectorFit, effector_count>;
+
+struct Options {
+    std::string base, out;
+    CloneConfig config;
+    bool json = false;
+};
+
+std::string_view name_of(std::size_t effector) { return channel_names[sensor_count + effector]; }
+
+Json to_json(Fits const& fits) {
+    Json json = Json::object();
+    for (std::size_t e = 0; e < fits.size(); ++e)
+        json[std::string{name_of(e)}] = {{"cross_entropy", fits[e].cross_entropy},
+                                         {"absolute_error", fits[e].absolute_error}};
+    return json;
+}
+
+void print_fit(Clones const& clones) {
+    fmt::print("{:<12} {:>14} {:>14} {:>15} {:>14}\n", "effector", "cross-entropy", "of a constant", "absolute error",
+               "of a constant");
+    for (std::size_t e = 0; e < effector_count; ++e)
+        fmt::print("{:<12} {:14.4f} {:14.4f} {:15.4f} {:14.4f}\n", name_of(e), clones.fit[e].cross_entropy,
+                   clones.constant[e].cross_entropy, clones.fit[e].absolute_error, clones.constant[e].absolute_error);
+}
+
+void clone(Program const& program, Options const& options) {
+    check_writable(options.out);
+    KnowledgeBase const base = read_knowledge_base(options.base);
+    CloneConfig const& config = options.config;
+    Progress progress{"cloning", config.count, "founders", 50, program.quiet || options.json};
+    Clones const clones = lore::clone(base, config, [&](int done) { progress.update(done, ""); });
+    Json const origin{{"made_by", made_by(program)},
+                      {"base", options.base},
+                      {"base_xxh3_64", checksum_text(checksum_of_file(options.base))},
+                      {"seed", config.seed},
+                      {"count", config.count},
+                      {"windows", config.windows},
+                      {"window_length", base.config().window_length},
+                      {"hidden", config.hidden},
+                      {"drawn", clones.all_alike ? "evenly" : "by value"},
+                      {"fit", to_json(clones.fit)},
+                      {"constant", to_json(clones.constant)}};
+    std::string const text = origin.dump(2, ' ', false, Json::error_handler_t::replace);
+    write_founders(options.out, {"clones of a knowledge base", text, clones.genomes});
+    if (options.json) return fmt::print("{}\n", text);
+    say(program, fmt::format("wrote {}: {} founders, each fitted to {} windows drawn {}", options.out, config.count,
+                             config.windows, clones.all_alike ? "evenly, since all values are alike" : "by value"));
+    if (!program.quiet) print_fit(clones);
+}
+
+}   // namespace
+
+void add_clone(CLI::App& app, Program& program) {
+    auto const options = std::make_shared<Options>();
+    CloneConfig& config = options->config;
+    CLI::App* const command =
+        add_command(app, program, "clone", "Make founders that act as windows of a knowledge base do, drawn by value",
+                    options, clone);
+    add_base(command, options->base);
+    command->add_option("--out", options->out, "founders file to write")->required();
+    command->add_option("--count", config.count, "founders")->check(CLI::Range(1, 200000))->capture_default_str();
+    command->add_option("--seed", config.seed, "of the draws")->check(seed_digits)->capture_default_str();
+    command->add_option("--windows", config.windows, "drawn for each founder, with replacement")
+        ->check(CLI::Range(1, most_cloned_steps))
+        ->capture_default_str();
+    command
+        ->add_option("--hidden", config.hidden,
+                     "hidden neurons with random input weights; 36 + 15 each are the connections of a founder")
+        ->check(CLI::Range(0, std::min(most_hidden, most_cloned_hidden)))
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "print how the founders were made, and how well they fit, as JSON");
+}
+
+}   // namespace lore::kb
