@@ -38,6 +38,23 @@ void put_population(OutArchive& archive, Population const& population) {
         archive << place << objectives << member.diversity << member.crowding << *member.descriptors;
         archive.save_binary(member.objectives.value.data(), sizeof member.objectives.value);
     }
+    // Of runs shaped by rule share alone; others end here.
+    bool const by_share = !population.members.empty() && population.members.front().shown != nullptr;
+    if (by_share)
+        for (Individual const& member : population.members) put_blob(archive, *member.shown);
+}
+
+/// The features that each member shows, where the checkpoint has them.
+void get_shown(InArchive& archive, Population& population) {
+    if (archive.left() == 0) return;
+    for (Individual& member : population.members) {
+        auto shown = std::make_shared<std::vector<std::uint32_t>>();
+        get_blob(archive, *shown, SIZE_MAX);
+        bool const increasing =
+            std::adjacent_find(shown->begin(), shown->end(), std::greater_equal<>{}) == shown->end();
+        if (!increasing) archive.fail("features shown are out of order");
+        member.shown = std::move(shown);
+    }
 }
 
 Population get_population(InArchive& archive) {
@@ -70,6 +87,7 @@ Population get_population(InArchive& archive) {
         if (!is_possible(*member.descriptors)) archive.fail("a descriptor that no evaluation gives");
         member.objectives.count = objectives;
     }
+    get_shown(archive, population);
     return population;
 }
 

@@ -96,6 +96,8 @@ Bytes pack_deliveries(std::span<Delivery const> deliveries) {
         Descriptors const& descriptors = evaluation.descriptors;
         out.put(std::int32_t{evaluation.balls});
         out.put(evaluation.shaping);
+        out.put_varint(evaluation.shown.size());
+        out.put_all(std::span{evaluation.shown});
         out.put_varint(descriptors.balls.size());
         out.put_varint(descriptors.path.size());
         out.put_all(std::span{descriptors.balls});
@@ -114,6 +116,7 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
         Descriptors& descriptors = evaluation.descriptors;
         evaluation.balls = in.get<std::int32_t>();
         evaluation.shaping = in.get<double>();
+        evaluation.shown = in.get_all<std::uint32_t>(in.get_count(bytes.size()));
         std::size_t const balls = in.get_count(most_balls);
         std::size_t const path = in.get_count(bytes.size());
         descriptors.balls = in.get_all<Point>(balls);

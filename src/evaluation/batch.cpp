@@ -109,7 +109,7 @@ public:
         Tile const tile = tile_of(context_.arena, last_.x[row * last_.width + lane], last_.y[row * last_.width + lane]);
         for (int step = first; step < now.steps + steps; step += steps_per_tile_sample) now.path.push_back(tile);
         // Every window of a robot at rest shows the same row throughout.
-        if (reader_ && steps >= window_length_) show_window(last_, lane, now.steps, row, 0);
+        if (reader_ && steps >= window_length_) show_window(last_, lane, now.steps, row, 0, steps / window_length_);
         now.steps += steps;
     }
 
@@ -117,7 +117,10 @@ public:
         Lane& now = at(lane);
         Evaluation e;
         e.balls = world.collected;
-        e.shaping = now.shaping.best;
+        if (reader_) {
+            e.shaping = reader_->value(now.shaping);
+            if (context_.shaper->rule() == ShapingRule::share) e.shown = now.shaping.shown;
+        }
         Descriptors& d = e.descriptors;
         d.balls.assign(world.released.begin(),
                        world.released.begin() + static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
@@ -154,16 +157,17 @@ private:
     }
 
     /// The window that begins at step `start` of the lane's robot: its values are in the chunk's rows first_row,
-    /// first_row + stride and so on. They are only fetched if its bits leave anything to gain, one time in four.
-    void show_window(LaneChunk const& chunk, int lane, int start, int first_row, int stride) {
+    /// first_row + stride and so on. They are only fetched if its bits leave anything to gain (by rule max, one time in
+    /// four). `times`: so many windows in a row are equal to it.
+    void show_window(LaneChunk const& chunk, int lane, int start, int first_row, int stride, int times = 1) {
         Lane& now = at(lane);
         std::span<std::uint16_t const> const bits{now.bits.data() + start, static_cast<std::size_t>(window_length_)};
-        if (!reader_->may_raise(bits, now.shaping)) return;
+        if (!reader_->may_matter(bits, now.shaping)) return;
         float* to = window_values_.data();
         for (int step = 0; step < window_length_; ++step)
             for (int c = 0; c < continuous_count; ++c)
                 *to++ = chunk.values[((first_row + step * stride) * continuous_count + c) * chunk.width + lane];
-        reader_->see({bits, window_values_}, now.shaping);
+        reader_->see({bits, window_values_}, now.shaping, times);
     }
 
     EvaluationContext const& context_;

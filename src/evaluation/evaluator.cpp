@@ -7,8 +7,14 @@ Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& geno
     Evaluation evaluation;
     evaluation.balls = trace.final_world.collected;
     evaluation.descriptors = describe(context.arena, trace);
-    if (context.shaper)
-        evaluation.shaping = context.shaper->shaping(windows_of(trace, context.shaper->base().config().window_length));
+    if (context.shaper) {
+        Shaper::Reader reader = context.shaper->reader();
+        ShapingState state;
+        for (Window const& window : windows_of(trace, context.shaper->base().config().window_length))
+            reader.see(window, state);
+        evaluation.shaping = reader.value(state);
+        if (context.shaper->rule() == ShapingRule::share) evaluation.shown = std::move(state.shown);
+    }
     return evaluation;
 }
 

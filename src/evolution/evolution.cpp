@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lore {
@@ -44,7 +45,9 @@ Newborns breed(Population const& parents, EvolutionConfig const& config, std::ui
     return born;
 }
 
-std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Audience& audience) {
+bool by_share(EvolutionConfig const& config) { return config.use_shaping && config.shaping.rule == ShapingRule::share; }
+
+std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Audience& audience, bool by_share) {
     std::vector<Genome const*> genomes;
     for (auto const& birth : born) genomes.push_back(&birth->genome);
     std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, &audience);
@@ -56,6 +59,8 @@ std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Aud
         Individual individual;
         individual.birth = born[k];
         individual.descriptors = std::make_shared<Descriptors const>(std::move(evaluations[k].descriptors));
+        if (by_share)
+            individual.shown = std::make_shared<std::vector<std::uint32_t> const>(std::move(evaluations[k].shown));
         individuals.push_back(std::move(individual));
     }
     return individuals;
@@ -75,26 +80,52 @@ void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances
     for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].diversity = diversity[i];
 }
 
-Objectives objectives_of(Individual const& individual, EvolutionConfig const& config) {
+/// RS of everybody within the pool; only rule share looks at the others.
+void set_shaping(Population& pool, EvolutionConfig const& config) {
+    if (!by_share(config)) {
+        for (Individual& member : pool.members) member.shaping = member.birth->shaping;
+        return;
+    }
+    std::vector<double> const shaping = shares(pool.members, config.feature_values);
+    for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].shaping = shaping[i];
+}
+
+Objectives objectives_of(Individual const& individual, EvolutionConfig const& config, bool shaping_serves) {
     Objectives objectives;
     auto const add = [&](double value) {
         assert(std::isfinite(value));
         objectives.value[objectives.count++] = value;
     };
     add(individual.birth->balls);
-    if (config.use_diversity) add(individual.diversity);
-    if (config.use_shaping) add(individual.birth->shaping);
+    if (shaping_serves) add(individual.shaping);
+    else if (config.use_diversity) add(individual.diversity);
+    if (config.use_shaping && config.shaping.use == ShapingUse::objective) add(individual.shaping);
     return objectives;
 }
 
+/// The order among equals as keys, the smaller first.
+std::vector<std::uint64_t> tie_keys_of(Population const& pool, EvolutionConfig const& config, std::uint64_t seed) {
+    std::vector<std::uint64_t> keys;
+    for (Individual const& member : pool.members)
+        keys.push_back(tie_key(config.ties, seed, pool.generation, member.id()));
+    if (!config.use_shaping || config.shaping.use != ShapingUse::ties) return keys;
+    std::vector<std::size_t> order(keys.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        double const a_shaping = pool.members[a].shaping, b_shaping = pool.members[b].shaping;
+        return a_shaping != b_shaping ? a_shaping > b_shaping : keys[a] < keys[b];
+    });
+    for (std::size_t place = 0; place < order.size(); ++place) keys[order[place]] = place;
+    return keys;
+}
+
 /// The joint ranking of parents and children; leaves crowding distances in the pool.
-Ranking rank(Population& pool, EvolutionConfig const& config, std::uint64_t seed) {
+Ranking rank(Population& pool, EvolutionConfig const& config, std::uint64_t seed, bool shaping_serves) {
     std::vector<Objectives> objectives;
-    std::vector<std::uint64_t> tie_keys;
+    std::vector<std::uint64_t> const tie_keys = tie_keys_of(pool, config, seed);
     for (Individual& member : pool.members) {
-        member.objectives = objectives_of(member, config);
+        member.objectives = objectives_of(member, config, shaping_serves);
         objectives.push_back(member.objectives);
-        tie_keys.push_back(tie_key(config.ties, seed, pool.generation, member.id()));
     }
     int const room = std::min(config.population, static_cast<int>(pool.members.size()));
     Ranking ranking = rank(objectives, tie_keys, room);
@@ -147,23 +178,31 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
                                               : breed(state.population, config, seed, generation);
         double selection_seconds = watch.lap();
 
+        bool const takes_turns = config.use_shaping && config.shaping.use == ShapingUse::distance;
+        bool const shaping_serves = takes_turns && shaping_serves_at(seed, generation, config.diversity);
         DistanceKind const kind = distance_at(seed, generation, config.diversity);
         PoolDistances distances{state.population, static_cast<int>(born.size()), kind};
-        std::vector<Individual> children = evaluate(born, evaluator, distances);
+        std::vector<Individual> children = evaluate(born, evaluator, distances, by_share(config));
 
         Population pool = join(std::move(state.population), std::move(children));
         pool.generation = generation;
         set_diversity(pool, kind, std::move(distances).finish(pool, evaluator));
+        set_shaping(pool, config);
         auto const judged = std::span<Individual const>{pool.members}.last(born.size());
-        for (std::size_t k = 0; k < born.size(); ++k) born[k]->diversity = judged[k].diversity;
+        for (std::size_t k = 0; k < born.size(); ++k) {
+            born[k]->diversity = judged[k].diversity;
+            born[k]->shaping = judged[k].shaping;
+        }
         watch.lap();   // evaluating and measuring: the evaluator accounts for them
 
-        Ranking const ranking = rank(pool, config, seed);
+        Ranking const ranking = rank(pool, config, seed, shaping_serves);
         state.population = survivors(pool, ranking.survivors);
         sign(state.signature, state.population);
         selection_seconds += watch.lap();
 
-        if (observer && !observer({generation, kind, ranking.fronts, judged, &state, selection_seconds})) break;
+        if (observer &&
+            !observer({generation, kind, shaping_serves, ranking.fronts, judged, &state, selection_seconds}))
+            break;
     }
     return state;
 }

@@ -10,6 +10,7 @@ GenerationSummary summarize(GenerationReport const& report) {
     GenerationSummary summary;
     summary.generation = report.generation;
     summary.distance = report.distance;
+    summary.shaping_serves = report.shaping_serves;
     summary.fronts = report.fronts;
 
     std::map<std::array<double, 3>, int> sharing;
@@ -21,11 +22,11 @@ GenerationSummary summarize(GenerationReport const& report) {
         summary.mean_diversity += member.diversity;
         summary.mean_connections += static_cast<double>(birth.genome.edges.size());
         summary.mean_hidden += birth.genome.hidden_count();
-        if (birth.shaping > summary.best_shaping) {
-            summary.best_shaping = birth.shaping;
+        if (member.shaping > summary.best_shaping) {
+            summary.best_shaping = member.shaping;
             at_max = 0;
         }
-        if (birth.shaping == summary.best_shaping && birth.shaping != no_feature_value) ++at_max;
+        if (member.shaping == summary.best_shaping && member.shaping != no_feature_value) ++at_max;
         ++sharing[member.objectives.value];
     }
     double const count = static_cast<double>(members.size());

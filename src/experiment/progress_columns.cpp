@@ -42,6 +42,13 @@ constexpr ProgressColumn column(std::string_view name) {
     return {name, [](Row const& row) { return text_of(row.*member); }, read<member>};
 }
 
+/// In a period that the shaping value serves (ShapingUse::distance) the distance is measured, but no objective.
+std::string serving(Row const& row) { return row.shaping_serves ? "shaping" : text_of(row.distance); }
+bool read_serving(std::string_view field, Row& row) {
+    row.shaping_serves = field == "shaping";
+    return row.shaping_serves || take(field, row.distance);
+}
+
 std::string milliseconds(Row const& row) { return fmt::format("{:.3f}", row.seconds); }
 
 /// docs/manual/formats.md says what they mean. A new column is a line at the end, so that scripts that count columns go
@@ -50,7 +57,7 @@ constexpr ProgressColumn columns[]{
     column<&Row::generation>("generation"),
     column<&Row::best_balls>("best_balls"),
     column<&Row::mean_balls>("mean_balls"),
-    column<&Row::distance>("distance"),
+    {"distance", serving, read_serving},
     column<&Row::mean_diversity>("mean_diversity"),
     column<&Row::best_shaping>("best_shaping"),
     column<&Row::mean_connections>("mean_connections"),

@@ -86,6 +86,13 @@ void mend_lineage(RunSetup const& setup) {
     if (!whole) write_lineage(path, setup.checkpoint->state.population, setup.founders_origin());
 }
 
+/// What rule share needs on rank 0.
+std::vector<double> values_for_the_pool(EvaluationContext const& context) {
+    if (!context.shaper || context.shaper->rule() != ShapingRule::share) return {};
+    std::span<double const> const values = context.shaper->base().values();
+    return {values.begin(), values.end()};
+}
+
 RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason) {
     return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation,
             best_of_run(state.population).birth};
@@ -147,8 +154,10 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
 
     std::vector<std::string> hosts = give_order(session, run.setup.order);
     // Releases the others whatever happens from here on.
+    std::vector<double> feature_values = values_for_the_pool(run.context);
     Farm farm{session.world(), evaluation_in(std::move(run.context))};
-    EvolutionConfig const evolution = run.setup.order.config.evolution;
+    EvolutionConfig evolution = run.setup.order.config.evolution;
+    evolution.feature_values = std::move(feature_values);
     std::uint64_t const seed = run.setup.seed;
     std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);

@@ -180,6 +180,11 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("match_threshold", config.knowledge.match_threshold, 0.0, 1000.0,
           "a window nearer than this to a feature matches it [L2]");
 
+    d.section("shaping");
+    d.add("rule", evolution.shaping.rule, shaping_rule,
+          "what a --kb makes of the features shown: max, distinct, sum or share");
+    d.add("use", evolution.shaping.use, shaping_use, "of the shaping value: objective, distance (takes turns) or ties");
+
     d.section("checkpoint");
     d.add("generations", config.checkpoint_generations, 1, any, "a checkpoint every so many generations",
           Affects::nothing);

@@ -70,7 +70,7 @@ EvaluationContext context_of(WorkOrder const& order) {
             throw Error(fmt::format("{} on {} is not the file that rank 0 has", order.knowledge_path, host_name()),
                         "its checksum differs", "Put it where all ranks see the same file.");
         check_fit(base, order.config, order.knowledge_path);
-        context.shaper.emplace(std::move(base));
+        context.shaper.emplace(std::move(base), order.config.evolution.shaping.rule);
     }
     return context;
 }

@@ -1,14 +1,37 @@
 #include <lore/knowledge/shaping.h>
 
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <mutex>
 
 namespace lore {
 
+namespace {
+
+constexpr std::array<std::string_view, 4> rule_names{"max", "distinct", "sum", "share"};
+
+}   // namespace
+
+std::string_view name(ShapingRule rule) { return rule_names[static_cast<std::size_t>(rule)]; }
+
+ShapingRule shaping_rule(std::string_view wanted) {
+    auto const found = std::find(rule_names.begin(), rule_names.end(), wanted);
+    if (found == rule_names.end())
+        throw UsageError(fmt::format("'{}' is not a shaping rule", wanted), "known are max, distinct, sum, share",
+                         "Correct the name.");
+    return static_cast<ShapingRule>(found - rule_names.begin());
+}
+
 struct Shaper::State {
-    explicit State(KnowledgeBase kept) : base(std::move(kept)) {}
+    State(KnowledgeBase kept, ShapingRule wanted) : base(std::move(kept)), rule(wanted) {}
 
     KnowledgeBase base;
+    ShapingRule rule;
     std::unique_ptr<FeatureIndex> index;
     double highest = no_feature_value;
     std::mutex mutex;                                   ///< guards idle
@@ -22,7 +45,8 @@ struct Shaper::Reader::Loan {
     std::span<double const> values;
 };
 
-Shaper::Shaper(KnowledgeBase base, IndexKind kind) : state_(std::make_shared<State>(std::move(base))) {
+Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexKind kind)
+    : state_(std::make_shared<State>(std::move(base), rule)) {
     KnowledgeBase const& kept = state_->base;
     state_->index = make_index(kind, kept.config());
     for (int feature = 0; feature < kept.size(); ++feature) state_->index->add(kept.window(feature));
@@ -31,6 +55,7 @@ Shaper::Shaper(KnowledgeBase base, IndexKind kind) : state_(std::make_shared<Sta
 }
 
 KnowledgeBase const& Shaper::base() const { return state_->base; }
+ShapingRule Shaper::rule() const { return state_->rule; }
 double Shaper::highest_value() const { return state_->highest; }
 
 Shaper::Reader::Reader(Shaper const& shaper) : loan_(std::make_unique<Loan>()) {
@@ -56,14 +81,39 @@ Shaper::Reader::~Reader() {
     loan_->owner->idle.push_back(std::move(loan_->search));
 }
 
-void Shaper::Reader::see(Window const& window, ShapingState& state) {
-    if (state.best >= loan_->highest) return;
-    Match const found = loan_->search->match_above(window, state.best);
-    if (found.found()) state.best = std::max(state.best, loan_->values[static_cast<std::size_t>(found.feature)]);
+void Shaper::Reader::see(Window const& window, ShapingState& state, int times) {
+    if (loan_->owner->rule == ShapingRule::max) {
+        if (state.best >= loan_->highest) return;
+        Match const found = loan_->search->match_above(window, state.best);
+        if (found.found()) state.best = std::max(state.best, loan_->values[static_cast<std::size_t>(found.feature)]);
+        return;
+    }
+    Match const found = loan_->search->match(window);
+    if (!found.found()) return;
+    if (loan_->owner->rule == ShapingRule::sum)
+        for (int showing = 0; showing < times; ++showing)
+            state.sum += loan_->values[static_cast<std::size_t>(found.feature)];
+    else state.shown.push_back(static_cast<std::uint32_t>(found.feature));
 }
 
-bool Shaper::Reader::may_raise(std::span<std::uint16_t const> bits, ShapingState const& state) {
-    return state.best < loan_->highest && loan_->search->may_match_above(bits, state.best);
+bool Shaper::Reader::may_matter(std::span<std::uint16_t const> bits, ShapingState const& state) {
+    if (loan_->owner->rule == ShapingRule::max)
+        return state.best < loan_->highest && loan_->search->may_match_above(bits, state.best);
+    return loan_->search->may_match_above(bits, -std::numeric_limits<double>::infinity());
+}
+
+double Shaper::Reader::value(ShapingState& state) const {
+    std::sort(state.shown.begin(), state.shown.end());
+    state.shown.erase(std::unique(state.shown.begin(), state.shown.end()), state.shown.end());
+    switch (loan_->owner->rule) {
+    case ShapingRule::max: return state.best;
+    case ShapingRule::sum: return state.sum;
+    case ShapingRule::share: return no_feature_value;
+    case ShapingRule::distinct: break;
+    }
+    double sum = 0;
+    for (std::uint32_t const feature : state.shown) sum += loan_->values[feature];
+    return sum;
 }
 
 Match Shaper::Reader::match(Window const& window) { return loan_->search->match(window); }
@@ -71,7 +121,7 @@ Match Shaper::Reader::match(Window const& window) { return loan_->search->match(
 double Shaper::Reader::shaping(std::span<Window const> windows) {
     ShapingState state;
     for (Window const& window : windows) see(window, state);
-    return state.best;
+    return value(state);
 }
 
 }   // namespace lore

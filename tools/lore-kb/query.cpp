@@ -30,7 +30,7 @@ void query(Program const& program, Options const& options) {
     int const length = base.config().window_length;
     Trace const trace = options.run.empty() ? read_windows(options.windows, length)
                                             : trace_of(open_run(options.run), options.individual.value_or("best"));
-    Shaper const shaper{base, index_kind(options.index)};
+    Shaper const shaper{base, ShapingRule::max, index_kind(options.index)};
     auto reader = shaper.reader();
     std::string csv = "window,step,feature,distance,value,count\n";
     int row = 0, found = 0;

@@ -17,4 +17,8 @@ struct DiversityConfig {
 /// The distance that serves a generation: draw number floor(generation / period), uniform, repeats allowed.
 DistanceKind distance_at(std::uint64_t seed, int generation, DiversityConfig const&);
 
+/// Whether the shaping value, as one more that is drawn from, serves the generation's period instead of its distance:
+/// with probability 1 / (distances + 1).
+bool shaping_serves_at(std::uint64_t seed, int generation, DiversityConfig const&);
+
 }   // namespace lore

@@ -19,6 +19,7 @@ enum class Purpose : std::uint32_t {
     permute = 8,            ///< which feature gets which value of a permuted knowledge base
     founder_mutation = 9,   ///< the one mutation of a founder that comes from elsewhere
     clone = 10,             ///< what a founder cloned from a knowledge base imitates, and its random weights
+    shaping_turn = 11,      ///< whether the shaping value serves a period in place of a distance
     test = 99               ///< inputs of property tests
 };
 

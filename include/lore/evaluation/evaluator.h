@@ -13,7 +13,8 @@ namespace lore {
 /// All that an individual's life in the arena leaves behind; the trace itself dies where it was born.
 struct Evaluation {
     int balls = 0;                       ///< delivered into the basket
-    double shaping = no_feature_value;   ///< RS; -1 without a knowledge base
+    double shaping = no_feature_value;   ///< RS; -1 without a knowledge base, and where the pool decides (rule share)
+    std::vector<std::uint32_t> shown;    ///< rule share: the features shown, each once, in increasing order
     Descriptors descriptors;
     friend bool operator==(Evaluation const&, Evaluation const&) = default;
 };

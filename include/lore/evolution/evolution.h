@@ -3,6 +3,7 @@
 #include <lore/behavior/diversity.h>
 #include <lore/core/signature.h>
 #include <lore/evolution/selection.h>
+#include <lore/evolution/shaping.h>
 #include <lore/network/mutation.h>
 
 #include <functional>
@@ -16,14 +17,17 @@ struct FoundingConfig {
     bool mutate = true;   ///< One mutation each.
 };
 
-/// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used.
+/// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used; in a period whose distance
+/// is the shaping value (ShapingUse::distance), balls and RS.
 struct EvolutionConfig {
     int population = 200;     ///< survivors of a generation, and children of one. Paper: 200.
     int founders = 400;       ///< random individuals of generation 0, at least `population`
     int generations = 4000;   ///< Paper: 4000.
     TieRule ties = TieRule::random;
     bool use_diversity = true;   ///< objective BD; measured and reported in any case
-    bool use_shaping = false;    ///< objective RS; set where a knowledge base is given
+    bool use_shaping = false;    ///< RS is used, as `shaping` says; set where a knowledge base is given
+    ShapingConfig shaping;
+    std::vector<double> feature_values;   ///< of the base; rule share alone needs them here
     DiversityConfig diversity;
     MutationConfig mutation;
     NetworkLimits limits;
@@ -39,6 +43,7 @@ struct EvolutionState {
 struct GenerationReport {
     int generation = 0;
     DistanceKind distance = DistanceKind::adhoc;
+    bool shaping_serves = false;   ///< RS stood in the place of BD (ShapingUse::distance)
     int fronts = 0;
     std::span<Individual const> born;        ///< everybody evaluated in this generation
     EvolutionState const* state = nullptr;   ///< after selection

@@ -24,9 +24,9 @@ struct Birth {
     std::shared_ptr<Birth const> parent;   ///< null for founders
     Genome genome;
     int balls = 0;
-    double shaping = no_feature_value;
-    double diversity = 0;   ///< BD in the joint ranking of its generation of birth
-    ~Birth();               ///< releases a long lineage without recursion
+    double shaping = no_feature_value;   ///< RS; by rule share, in the joint ranking of its generation of birth
+    double diversity = 0;                ///< BD in the joint ranking of its generation of birth
+    ~Birth();                            ///< releases a long lineage without recursion
 };
 
 /// Objectives, all maximized, in the order of the treatment (balls, diversity, shaping).
@@ -39,9 +39,12 @@ struct Objectives {
 struct Individual {
     std::shared_ptr<Birth const> birth;
     std::shared_ptr<Descriptors const> descriptors;
-    double diversity = 0;    ///< BD as of the last joint ranking
-    Objectives objectives;   ///< as of the last joint ranking
-    double crowding = 0;     ///< as of the last joint ranking
+    /// Rule share alone: the features that it shows, each once, in increasing order; null by other rules.
+    std::shared_ptr<std::vector<std::uint32_t> const> shown;
+    double diversity = 0;                ///< BD as of the last joint ranking
+    double shaping = no_feature_value;   ///< RS as of the last joint ranking
+    Objectives objectives;               ///< as of the last joint ranking
+    double crowding = 0;                 ///< as of the last joint ranking
     IndividualId id() const { return birth->id; }
 };
 

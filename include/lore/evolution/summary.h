@@ -13,7 +13,8 @@ struct GenerationSummary {
     int best_balls = 0;
     double mean_balls = 0;
     DistanceKind distance = DistanceKind::adhoc;
-    double mean_diversity = 0;   ///< BD
+    bool shaping_serves = false;   ///< RS stood in the place of BD
+    double mean_diversity = 0;     ///< BD
     double best_shaping = no_feature_value;
     double mean_connections = 0;
     double mean_hidden = 0;

@@ -2,21 +2,41 @@
 
 #include <lore/knowledge/index.h>
 
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
 namespace lore {
 
 inline constexpr double no_feature_value = -1.0;
 
-/// What the windows of one individual, seen one after the other, have been worth so far.
+/// How the features that an individual shows become one number, RS(x); v_b is the value of feature b.
+enum class ShapingRule : std::uint8_t {
+    max,        ///< the largest v_b among them (paper, "Knowledge exploitation")
+    distinct,   ///< the sum of v_b over the different features shown
+    sum,        ///< the sum of v_b over all showings: a feature shown twice counts twice
+    share       ///< the sum of v_b (1 - f_b) over the different features shown, f_b the share of the pool that shows b:
+                ///< what everybody shows is worth nothing, so that the objective cannot saturate
+};
+std::string_view name(ShapingRule);
+ShapingRule shaping_rule(std::string_view name);   ///< throws UsageError
+
+/// What the windows of one individual, seen one after the other, have shown so far.
 struct ShapingState {
-    double best = no_feature_value;   ///< RS of the windows seen
+    double best = no_feature_value;     ///< rule max: RS of the windows seen
+    double sum = 0;                     ///< rule sum: RS of the windows seen
+    std::vector<std::uint32_t> shown;   ///< rules distinct and share: the features matched, a showing each
 };
 
 /// The reward shaping objective RS (paper, "Knowledge exploitation"): a knowledge base and its index, read only,
 /// safe to use from several threads. Cheap to copy; copies share everything.
 class Shaper {
 public:
-    explicit Shaper(KnowledgeBase, IndexKind = IndexKind::exact);
+    explicit Shaper(KnowledgeBase, ShapingRule = ShapingRule::max, IndexKind = IndexKind::exact);
     KnowledgeBase const& base() const;
+    ShapingRule rule() const;
     double highest_value() const;   ///< no_feature_value for an empty base
 
     /// One user's access, with a search of its own, for one thread at a time. Borrowed from the Shaper and given back
@@ -26,14 +46,18 @@ public:
         Reader(Reader&&) noexcept;
         Reader& operator=(Reader&&) = delete;
         ~Reader();
-        /// state.best becomes the value of the window's nearest feature, if it matches one that is worth more. Costs
-        /// little once state.best is high: only features worth more are looked for.
-        void see(Window const&, ShapingState&);
-        /// False if see() would leave state.best as it is for every window with these bits, whatever its values.
-        bool may_raise(std::span<std::uint16_t const> bits, ShapingState const&);
+        /// Adds what the window shows to the state, as often as `times` says. By rule max only features worth more
+        /// than state.best are looked for, which costs little once it is high; by the others the nearest feature of
+        /// every window is found.
+        void see(Window const&, ShapingState&, int times = 1);
+        /// False if see() would leave the state as it is for every window with these bits, whatever its values.
+        bool may_matter(std::span<std::uint16_t const> bits, ShapingState const&);
+        /// RS of all windows seen; by rule share, which needs the pool, no_feature_value. Leaves state.shown in
+        /// increasing order, each feature once.
+        double value(ShapingState&) const;
         /// The nearest feature within the threshold, if any.
         Match match(Window const&);
-        /// The largest value among the features that the windows match; -1 if none matches.
+        /// RS of the windows: value() after all have been seen.
         double shaping(std::span<Window const>);
 
     private:

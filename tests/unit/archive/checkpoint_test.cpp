@@ -48,6 +48,33 @@ TEST(Checkpoint, continues_to_the_same_bytes_as_a_straight_run_from_any_generati
     }
 }
 
+TEST(Checkpoint, keeps_the_features_shown_of_a_run_shaped_by_share) {
+    class Shows : public PretendedEvaluator {
+    public:
+        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* audience) override {
+            auto evaluations = PretendedEvaluator::evaluate(genomes, audience);
+            for (std::size_t i = 0; i < genomes.size(); ++i)
+                for (std::uint32_t feature = 0; feature < 3; ++feature)
+                    if (genomes[i]->biases[feature] > 0.5f) evaluations[i].shown.push_back(feature);
+            return evaluations;
+        }
+    };
+    Shows evaluator;
+    EvolutionConfig config = small_evolution(12);
+    config.use_shaping = true;
+    config.shaping.rule = ShapingRule::share;
+    config.feature_values = {1, 2, 4};
+    std::uint64_t const straight = evolve(config, 1, evaluator, {}, {}).signature.value();
+    for (int stop : {0, 5, 11}) {
+        config.generations = stop;
+        Checkpoint checkpoint;
+        checkpoint.state = evolve(config, 1, evaluator, {}, {});
+        Checkpoint const read = unpack_checkpoint(pack_checkpoint(checkpoint), "x");
+        config.generations = 12;
+        EXPECT_EQ(evolve(config, 1, evaluator, read.state, {}).signature.value(), straight) << stop;
+    }
+}
+
 TEST(Checkpoint, keeps_the_last_two_and_falls_back_to_the_older_with_a_warning) {
     Scratch const scratch;
     std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");

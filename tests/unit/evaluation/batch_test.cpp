@@ -146,14 +146,14 @@ void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> 
 
 /// A knowledge base of what some wanderers did.
 Shaper shaper_from(std::string const& task, KnowledgeConfig const& config, int individuals,
-                   IndexKind kind = IndexKind::exact) {
+                   ShapingRule rule = ShapingRule::max) {
     KnowledgeBuilder builder{config, make_exact_index(config)};
     auto const teachers = population(individuals, 99);
     for (std::size_t i = 0; i < teachers.size(); ++i) {
         Trace const trace = record_episode(arena(task), compile(teachers[i]), {1000, 0});
         builder.add_individual(windows_of(trace, config.window_length), static_cast<double>(i % 7));
     }
-    return Shaper{std::move(builder).finish({}), kind};
+    return Shaper{std::move(builder).finish({}), rule};
 }
 
 }   // namespace
@@ -236,6 +236,21 @@ TEST_P(EvaluateBatch, gives_the_shaping_value_of_a_knowledge_base) {
     auto const plain = evaluate_all_plainly(context, genomes);
     expect_batches_equal(context, genomes, plain);
     EXPECT_GT(std::ranges::count_if(plain, [](Evaluation const& e) { return e.shaping >= 0.0; }), 5);
+}
+
+TEST_P(EvaluateBatch, gives_what_every_shaping_rule_needs) {
+    // Robots that come to rest show one window many times.
+    std::vector<Genome> genomes{{{}, {0.5f, 0.5f, 0.5f}}, {{}, {0.3f, 0.3f, 0.0f}}};
+    for (Genome& genome : population(30, 8)) genomes.push_back(std::move(genome));
+    for (ShapingRule const rule : {ShapingRule::distinct, ShapingRule::sum, ShapingRule::share}) {
+        EvaluationContext const context{arena(GetParam()), {1990, 0}, shaper_from(GetParam(), {}, 12, rule)};
+        auto const plain = evaluate_all_plainly(context, genomes);
+        expect_batches_equal(context, genomes, plain);
+        EXPECT_GT(
+            std::ranges::count_if(plain, [](Evaluation const& e) { return e.shaping > 0.0 || e.shown.size() > 1; }), 5)
+            << name(rule);
+        if (HasFailure()) FAIL() << name(rule);
+    }
 }
 
 TEST_P(EvaluateBatch, serves_windows_of_any_length) {

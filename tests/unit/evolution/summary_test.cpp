@@ -18,6 +18,7 @@ Individual member(int balls, double diversity, double shaping, int edges, int hi
     descriptors->bits.resize(4000);
     individual.descriptors = std::move(descriptors);
     individual.diversity = diversity;
+    individual.shaping = shaping;
     individual.objectives = {{static_cast<double>(balls), diversity, shaping}, 3};
     return individual;
 }

@@ -1,5 +1,6 @@
 #include "knowledge/traces.h"
 
+#include <lore/core/error.h>
 #include <lore/knowledge/builder.h>
 #include <lore/knowledge/derive.h>
 #include <lore/knowledge/shaping.h>
@@ -35,6 +36,51 @@ TEST(Shaper, gives_minus_one_where_no_window_matches) {
     EXPECT_EQ(shaper.shaping(windows_of(trace, 1)), no_feature_value);
     EXPECT_EQ(shaper.shaping({}), no_feature_value);
     EXPECT_EQ(Shaper{base_of({}, {})}.shaping(windows_of(trace, 1)), no_feature_value);
+}
+
+TEST(Shaper, adds_every_showing_by_rule_sum_and_every_feature_once_by_rule_distinct) {
+    KnowledgeBase const base = base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {2.0, -5.0, 7.0});
+    Trace const trace = trace_of({{0x01F, 0.5f}, {0x000, 0.5f}, {0x001, 0.5f}, {0x0AA, 0.5f}});
+    EXPECT_EQ((Shaper{base, ShapingRule::sum}.shaping(windows_of(trace, 1))), -5.0 + 2.0 + 2.0);
+    EXPECT_EQ((Shaper{base, ShapingRule::distinct}.shaping(windows_of(trace, 1))), 2.0 - 5.0);
+    EXPECT_EQ((Shaper{base, ShapingRule::sum}.shaping({})), 0.0) << "nobody shows anything worth something";
+}
+
+TEST(Shaper, counts_a_window_shown_several_times_so_often_by_rule_sum_alone) {
+    KnowledgeBase const base = base_of({{0x000, 0.5f}}, {2.0});
+    Trace const trace = trace_of({{0x000, 0.5f}});
+    for (auto const& [rule, expected] :
+         {std::pair{ShapingRule::sum, 6.0}, std::pair{ShapingRule::distinct, 2.0}, std::pair{ShapingRule::max, 2.0}}) {
+        Shaper const shaper{base, rule};
+        auto reader = shaper.reader();
+        ShapingState state;
+        reader.see(windows_of(trace, 1)[0], state, 3);
+        EXPECT_EQ(reader.value(state), expected) << name(rule);
+    }
+}
+
+TEST(Shaper, lists_the_features_shown_for_rule_share_which_needs_the_pool) {
+    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {2.0, 5.0, 7.0}), ShapingRule::share};
+    Trace const trace = trace_of({{0x1E0, 0.5f}, {0x000, 0.5f}, {0x1E0, 0.5f}});
+    auto reader = shaper.reader();
+    ShapingState state;
+    for (Window const& window : windows_of(trace, 1)) reader.see(window, state);
+    EXPECT_EQ(reader.value(state), no_feature_value);
+    EXPECT_EQ(state.shown, (std::vector<std::uint32_t>{0, 2}));
+}
+
+TEST(Shaper, passes_over_windows_whose_bits_match_nothing) {
+    Shaper const shaper{base_of({{0x000, 0.5f}}, {-3.0}), ShapingRule::sum};
+    auto reader = shaper.reader();
+    std::vector<std::uint16_t> const near{0x001}, far{0x0FF};
+    EXPECT_TRUE(reader.may_matter(near, {})) << "negative values count too";
+    EXPECT_FALSE(reader.may_matter(far, {}));
+}
+
+TEST(Shaper, knows_its_rules_by_name) {
+    for (ShapingRule const rule : {ShapingRule::max, ShapingRule::distinct, ShapingRule::sum, ShapingRule::share})
+        EXPECT_EQ(shaping_rule(name(rule)), rule);
+    EXPECT_THROW(shaping_rule("most"), UsageError);
 }
 
 TEST(Shaper, counts_the_nearest_feature_of_a_window_though_another_within_the_threshold_is_worth_more) {
