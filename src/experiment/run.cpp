@@ -67,10 +67,30 @@ Error failure_in_hand(int generation, std::string const& genome_path) {
     session.abort(static_cast<int>(error.exit_code()));
 }
 
+/// What rule share needs on rank 0.
+std::vector<double> values_for_the_pool(EvaluationContext const& context) {
+    if (!context.shaper || context.shaper->rule() != ShapingRule::share) return {};
+    std::span<double const> const values = context.shaper->base().values();
+    return {values.begin(), values.end()};
+}
+
+/// A checkpoint's features become places in a table.
+void refuse_unknown_features(PreparedRun const& run) {
+    if (!run.setup.checkpoint) return;
+    std::size_t const known = values_for_the_pool(run.context).size();
+    for (Individual const& member : run.setup.checkpoint->state.population.members)
+        if (member.shown && !member.shown->empty() && member.shown->back() >= known)
+            throw Error(fmt::format("cannot go on from {}", run.setup.file(run_file::checkpoint)),
+                        fmt::format("feature {} is not in the knowledge base", member.shown->back()),
+                        "Take a copy that is whole, or start in another directory.");
+}
+
 /// Prepares while the other ranks wait: whatever goes wrong, they are released.
 PreparedRun prepare_or_release(Session const& session, RunOptions const& options) {
     try {
-        return prepare_run(options);
+        PreparedRun run = prepare_run(options);
+        refuse_unknown_features(run);
+        return run;
     } catch (...) {
         release_other_ranks(session);
         throw;
@@ -84,13 +104,6 @@ void mend_lineage(RunSetup const& setup) {
     bool const whole = std::filesystem::exists(path) &&
                        (listed == nullptr || record_of(listed->role, path, listed->path).checksum == listed->checksum);
     if (!whole) write_lineage(path, setup.checkpoint->state.population, setup.founders_origin());
-}
-
-/// What rule share needs on rank 0.
-std::vector<double> values_for_the_pool(EvaluationContext const& context) {
-    if (!context.shaper || context.shaper->rule() != ShapingRule::share) return {};
-    std::span<double const> const values = context.shaper->base().values();
-    return {values.begin(), values.end()};
 }
 
 RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason) {
@@ -152,9 +165,9 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     }
     if (!run.setup.warning.empty()) fmt::print(stderr, "warning: {}\n", run.setup.warning);
 
+    std::vector<double> feature_values = values_for_the_pool(run.context);
     std::vector<std::string> hosts = give_order(session, run.setup.order);
     // Releases the others whatever happens from here on.
-    std::vector<double> feature_values = values_for_the_pool(run.context);
     Farm farm{session.world(), evaluation_in(std::move(run.context))};
     EvolutionConfig evolution = run.setup.order.config.evolution;
     evolution.feature_values = std::move(feature_values);
