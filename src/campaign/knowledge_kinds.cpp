@@ -81,12 +81,6 @@ Words after_bases(KnowledgePlan const& knowledge, std::vector<Step>&) {
 
 // ---- how lore-kb makes each kind ----
 
-/// The directory of the source run that a base with 'balls' or 'run' comes from; "?" for its number until it is chosen.
-std::string source_run_of(KnowledgePlan const& lineage, CommandContext const& context) {
-    int const run = context.choice == nullptr ? 0 : context.choice->of(lineage.name).run;
-    return context.directory.run(run_step("source", run));
-}
-
 Words build_lineage(KnowledgePlan const& knowledge, CommandContext const& context) {
     return {"build", source_run_of(knowledge, context)};
 }
@@ -145,6 +139,11 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
     row.read(table, plan);
     table.reject_unknown();
     return plan;
+}
+
+std::string source_run_of(KnowledgePlan const& lineage, CommandContext const& context) {
+    int const run = context.choice == nullptr ? 0 : context.choice->of(lineage.name).run;
+    return context.directory.run(run_step("source", run));
 }
 
 std::string knowledge_step(std::string_view name) { return fmt::format("knowledge/{}", name); }

@@ -40,6 +40,9 @@ KnowledgeKindRow const& row_of(KnowledgeKind);
 /// One [[knowledge]] table. Other bases that it names are not looked at. Throws UsageError.
 KnowledgePlan read_knowledge(TomlTable const&);
 
+/// The directory of the source run that a base with 'balls' or 'run' comes from; "?" for its number until it is chosen.
+std::string source_run_of(KnowledgePlan const& lineage, CommandContext const&);
+
 /// "knowledge/kb1" and "archive/kb1_all".
 std::string knowledge_step(std::string_view name);
 std::string archive_step(std::string_view name);

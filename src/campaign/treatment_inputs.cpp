@@ -11,6 +11,12 @@ namespace lore {
 
 namespace {
 
+std::vector<std::string> names_of(std::vector<KnowledgePlan> const& knowledge) {
+    std::vector<std::string> names;
+    for (KnowledgePlan const& one : knowledge) names.push_back(one.name);
+    return names;
+}
+
 // ---- knowledge = "kb1": a base for the reward ----
 
 /// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
@@ -39,9 +45,7 @@ void fit_windows(TomlTable const& table, std::string const& config_path, Treatme
 }
 
 void fit_knowledge(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
-    std::vector<std::string> bases;
-    for (KnowledgePlan const& knowledge : plan.knowledge) bases.push_back(knowledge.name);
-    require_known(table, "knowledge", treatment.knowledge, bases);
+    require_known(table, "knowledge", treatment.knowledge, names_of(plan.knowledge));
     fit_windows(table, plan.config_path(treatment), treatment,
                 windows_of(plan, plan.knowledge_base(treatment.knowledge)));
 }
@@ -54,8 +58,35 @@ std::vector<std::string> knowledge_arguments(Treatment const& treatment, Command
     return {"--kb", context.directory.knowledge(treatment.knowledge)};
 }
 
+// ---- clone_of = "kb1", policy_of = "kb1": founders ----
+
+void fit_clone(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
+    require_known(table, "clone_of", treatment.clone_of, names_of(plan.knowledge));
+}
+std::vector<std::string> after_clone(Treatment const& treatment, std::vector<Step>&) {
+    return {knowledge_step(treatment.clone_of)};
+}
+std::vector<std::string> clone_arguments(Treatment const& treatment, CommandContext const& context) {
+    return {"--founders", context.directory.knowledge(treatment.clone_of)};
+}
+
+void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
+    std::vector<KnowledgePlan> lineages;
+    for (KnowledgePlan const& one : plan.knowledge)
+        if (one.kind == KnowledgeKind::lineage) lineages.push_back(one);
+    require_known(table, "policy_of", treatment.policy_of, names_of(lineages));
+    if (!treatment.clone_of.empty())
+        table.fail("policy_of", "founders come from one place, and there is clone_of", "Leave one of the two out.");
+}
+std::vector<std::string> after_policy(Treatment const&, std::vector<Step>&) { return {"choose"}; }
+std::vector<std::string> policy_arguments(Treatment const& treatment, CommandContext const& context) {
+    return {"--founders", source_run_of(context.plan.knowledge_base(treatment.policy_of), context)};
+}
+
 constexpr TreatmentInput inputs[] = {
     {"knowledge", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments},
+    {"clone_of", &Treatment::clone_of, fit_clone, after_clone, clone_arguments},
+    {"policy_of", &Treatment::policy_of, fit_policy, after_policy, policy_arguments},
 };
 
 }   // namespace

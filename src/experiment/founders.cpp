@@ -1,8 +1,10 @@
 #include "founders.h"
 
 #include <lore/archive/founders_file.h>
+#include <lore/archive/knowledge_file.h>
 #include <lore/core/error.h>
 #include <lore/experiment/run_directory.h>
+#include <lore/knowledge/clone.h>
 
 #include <filesystem>
 
@@ -17,6 +19,18 @@ std::vector<Genome> last_population(std::string const& directory) {
     std::vector<Genome> genomes;
     for (IndividualId const id : lineage.last_population) genomes.push_back(lineage.find(id)->genome);
     return genomes;
+}
+
+constexpr char clones[] = "clones of a knowledge base";
+
+bool is_knowledge_base(std::string const& path) {
+    return !std::filesystem::is_directory(path) && kind_of_file(path) == FileKind::knowledge_base;
+}
+
+std::vector<Genome> genomes_of(std::string const& from, int count, std::uint64_t seed) {
+    if (std::filesystem::is_directory(from)) return last_population(from);
+    if (is_knowledge_base(from)) return clone(read_knowledge_base(from), {.count = count, .seed = seed}).genomes;
+    return read_founders(from).genomes;
 }
 
 }   // namespace
@@ -38,13 +52,13 @@ FileRecord founders_record(std::string const& from) {
                            : std::string{"no such file"},
                     "Give the directory of a finished run, or a file that 'lore-kb clone' wrote.");
     FileRecord record = record_of(file_role::founders, path, path);
-    record.kind = is_run ? "last population of a run" : read_founders(path).kind;
+    record.kind = is_run ? "last population of a run" : is_knowledge_base(path) ? clones : read_founders(path).kind;
     return record;
 }
 
-std::vector<Genome> read_founder_genomes(std::string const& from, NetworkLimits const& limits) {
-    std::vector<Genome> genomes =
-        std::filesystem::is_directory(from) ? last_population(from) : read_founders(from).genomes;
+std::vector<Genome> read_founder_genomes(std::string const& from, NetworkLimits const& limits, int count,
+                                         std::uint64_t seed) {
+    std::vector<Genome> genomes = genomes_of(from, count, seed);
     for (std::size_t i = 0; i < genomes.size(); ++i) {
         auto const refuse = [&](std::string const& reason, std::string_view setting) {
             throw UsageError(fmt::format("{} does not fit the run", from),

@@ -94,7 +94,9 @@ void find_founders(RunSetup& setup) {
                            fmt::format("{} is not the file it was started with", now.path),
                            "Give that one with --founders, or start in another directory.");
     if (recorded == nullptr) setup.manifest.inputs.push_back(now);
-    if (!setup.checkpoint) setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits);
+    if (!setup.checkpoint)
+        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits,
+                                              setup.order.config.evolution.population, setup.seed);
 }
 
 void take_seed(RunSetup& setup, RunOptions const& options) {

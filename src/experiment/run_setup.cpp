@@ -60,7 +60,8 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     if (std::string& from = setup.order.config.founders_from; !from.empty()) {
         from = absolute_path(from);
         setup.manifest.inputs.push_back(founders_record(from));
-        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits);
+        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits,
+                                              setup.order.config.evolution.population, setup.seed);
     }
 }
 

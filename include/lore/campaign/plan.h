@@ -14,7 +14,10 @@ struct Treatment {
     std::string label;                    ///< in figures
     std::string config;                   ///< path of its lore-evolve configuration, as the campaign's file gives it
     std::vector<std::string> overrides;   ///< "section.key=value", those for its generations and its base among them
-    std::string knowledge;                ///< name of the knowledge base for objective RS; empty: none
+    std::string knowledge;                ///< name of the knowledge base that shapes the reward; empty: none
+    std::string clone_of;                 ///< name of the knowledge base that founders are cloned from; empty: none
+    std::string policy_of;   ///< name of the knowledge base from whose source run's last population founders
+                             ///< come, the usual baseline of transfer; empty: none
     int runs = 30;
     std::uint64_t first_seed = 1;
 };
