@@ -53,6 +53,35 @@ std::vector<std::uint16_t> get_words(ByteReader& in) {
     return words;
 }
 
+void put_evaluation(ByteWriter& out, Evaluation const& evaluation) {
+    Descriptors const& descriptors = evaluation.descriptors;
+    out.put(std::int32_t{evaluation.balls});
+    out.put(evaluation.shaping);
+    out.put_varint(evaluation.shown.size());
+    out.put_all(std::span{evaluation.shown});
+    out.put_varint(descriptors.balls.size());
+    out.put_varint(descriptors.path.size());
+    out.put_all(std::span{descriptors.balls});
+    put_words(out, descriptors.bits);
+    out.put_all(std::span{descriptors.path});
+    out.put(descriptors.entropies);
+}
+
+Evaluation get_evaluation(ByteReader& in, std::size_t longest_path) {
+    Evaluation evaluation;
+    Descriptors& descriptors = evaluation.descriptors;
+    evaluation.balls = in.get<std::int32_t>();
+    evaluation.shaping = in.get<double>();
+    evaluation.shown = in.get_all<std::uint32_t>(in.get_count(longest_path));
+    std::size_t const balls = in.get_count(most_balls);
+    std::size_t const path = in.get_count(longest_path);
+    descriptors.balls = in.get_all<Point>(balls);
+    descriptors.bits = get_words(in);
+    descriptors.path = in.get_all<Tile>(path);
+    descriptors.entropies = in.get<std::array<double, channel_count>>();
+    return evaluation;
+}
+
 }   // namespace
 
 Bytes pack_genomes(std::span<Genome const* const> genomes) {
@@ -93,17 +122,7 @@ Bytes pack_deliveries(std::span<Delivery const> deliveries) {
     out.put_varint(deliveries.size());
     for (auto const& [ticket, evaluation] : deliveries) {
         out.put_varint(static_cast<std::uint64_t>(ticket));
-        Descriptors const& descriptors = evaluation.descriptors;
-        out.put(std::int32_t{evaluation.balls});
-        out.put(evaluation.shaping);
-        out.put_varint(evaluation.shown.size());
-        out.put_all(std::span{evaluation.shown});
-        out.put_varint(descriptors.balls.size());
-        out.put_varint(descriptors.path.size());
-        out.put_all(std::span{descriptors.balls});
-        put_words(out, descriptors.bits);
-        out.put_all(std::span{descriptors.path});
-        out.put(descriptors.entropies);
+        put_evaluation(out, evaluation);
     }
     return out.take();
 }
@@ -113,16 +132,7 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     std::vector<Delivery> deliveries(in.get_count(std::min(most_batch, bytes.size())));
     for (auto& [ticket, evaluation] : deliveries) {
         ticket = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
-        Descriptors& descriptors = evaluation.descriptors;
-        evaluation.balls = in.get<std::int32_t>();
-        evaluation.shaping = in.get<double>();
-        evaluation.shown = in.get_all<std::uint32_t>(in.get_count(bytes.size()));
-        std::size_t const balls = in.get_count(most_balls);
-        std::size_t const path = in.get_count(bytes.size());
-        descriptors.balls = in.get_all<Point>(balls);
-        descriptors.bits = get_words(in);
-        descriptors.path = in.get_all<Tile>(path);
-        descriptors.entropies = in.get<std::array<double, channel_count>>();
+        evaluation = get_evaluation(in, bytes.size());
     }
     in.expect_end();
     return deliveries;

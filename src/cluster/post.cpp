@@ -24,7 +24,7 @@ struct MessageHeader {
 }   // namespace
 
 Post::~Post() {
-    // After a failure some may never be taken; MPI_Abort follows then.
+    // After a failure some messages may never be received; MPI_Abort follows.
     for (Outgoing& sent : outgoing_) MPI_Request_free(&sent.request);
 }
 
@@ -48,7 +48,7 @@ void Post::send(int to, MessageKind kind, int unit, std::span<std::byte const> p
 }
 
 std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
-    if (comm_ == MPI_COMM_NULL) return std::nullopt;   // a process alone, without MPI
+    if (comm_ == MPI_COMM_NULL) return std::nullopt;   // one process, without MPI
     forget_sent();
     for (MessageKind const kind : kinds) {
         int there = 0;
@@ -75,7 +75,7 @@ std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
 Message Post::await(std::span<MessageKind const> kinds) {
     for (int polls = 0;; ++polls) {
         if (auto message = receive(kinds)) return *std::move(message);
-        // A process that sleeps is woken before those that keep the processor busy; one that yields is not.
+        // Sleep instead of yield: the kernel wakes a sleeper before processes that keep the processor busy.
         if (polls > polls_before_sleeping) std::this_thread::sleep_for(sleep);
     }
 }

@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <list>
 #include <optional>
+#include <string>
 
 namespace lore {
 
-/// Of the pulses of an evaluation, which come every 25 us or so, how many pass between two looks for messages. A look
-/// at every second one took 4 % of a worker's time.
+/// Pulses of an evaluation queue between two looks for messages. Pulses come about every 25 us; a look at every second
+/// one took 4 % of a worker's time.
 inline constexpr int pulses_a_look = 8;
 
 /// What a message is; also its MPI tag, so that a receiver asks for what it can take and nothing else.
@@ -20,9 +21,9 @@ enum class MessageKind : int {
     evaluated,      ///< evaluations, each with its ticket
     rows,           ///< a range of rows of a distance matrix; unit: its number
     distances,      ///< the same, measured
-    failure,        ///< unit: the ticket of an evaluation that threw, or that of rows; payload: the reason
-    stop,           ///< go home
-    times           ///< what a worker spent its time on
+    failure,        ///< unit: the ticket of an evaluation that threw, or the number of a range; payload: the reason
+    stop,           ///< leave serve()
+    times           ///< what a worker spent its time on: a RankTimes
 };
 
 struct Message {
@@ -31,6 +32,10 @@ struct Message {
     int unit = 0;   ///< which part of a request it belongs to
     Bytes payload;
 };
+/// The payload of a message that carries text.
+inline std::string text_of(Message const& message) {
+    return {reinterpret_cast<char const*>(message.payload.data()), message.payload.size()};
+}
 
 /// Sends and receives Lore's byte messages: a small header (magic, kind, unit, length), then the payload, in one MPI
 /// message. Without a communicator nothing ever arrives.

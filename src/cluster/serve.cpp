@@ -1,8 +1,7 @@
 #include <lore/cluster/farm.h>
 
-#include "guarded_stream.h"
-#include "post.h"
-#include "shared_rows.h"
+#include "distance_farm.h"
+#include "guarded_evaluation.h"
 
 #include <lore/archive/messages.h>
 #include <lore/core/stopwatch.h>
@@ -17,10 +16,10 @@ std::span<std::byte const> bytes_of(std::string const& text) {
     return std::as_bytes(std::span{text.data(), text.size()});
 }
 
-/// Feeds this rank's lanes with what rank 0 sends, also while they run, and sends back what comes out.
-class PostedFeed : public EvaluationFeed {
+/// Fills this rank's lanes with the genomes that rank 0 sends, also while they run, and sends back their evaluations.
+class PostedQueue : public EvaluationQueue {
 public:
-    explicit PostedFeed(Post& post) : post_(post) {}
+    explicit PostedQueue(Post& post) : post_(post) {}
 
     void take(Message const& message) {
         int ticket = message.unit;
@@ -65,8 +64,8 @@ private:
 
 }   // namespace
 
-void serve(Communicator const& communicator, StreamEvaluation const& evaluation) {
-    StreamEvaluation const evaluate = with_test_hooks(evaluation, communicator.rank());
+void serve(Communicator const& communicator, EvaluationContext context) {
+    GuardedEvaluation lanes{std::move(context), communicator.rank()};
     Post post{communicator.handle().comm};
     RankTimes times;
     DistanceMatrix scratch;
@@ -77,10 +76,10 @@ void serve(Communicator const& communicator, StreamEvaluation const& evaluation)
         times.waiting += watch.lap();
         if (message.kind == MessageKind::stop) break;
         if (message.kind == MessageKind::evaluate) {
-            PostedFeed feed{post};
-            feed.take(message);
-            auto const culprit = evaluate_guarded(evaluate, feed);
-            feed.send_finished();
+            PostedQueue queue{post};
+            queue.take(message);
+            auto const culprit = lanes.evaluate(queue);
+            queue.send_finished();
             if (culprit) post.send(0, MessageKind::failure, culprit->ticket, bytes_of(culprit->reason));
             times.evaluation += watch.lap();
         } else {

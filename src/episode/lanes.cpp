@@ -30,36 +30,12 @@ RunSteps kernel_for(Isa isa) {
     return isa_baseline::run_steps;
 }
 
-/// Networks that are all there, handed out by size.
-class AllAtOnce : public EpisodeSource {
-public:
-    explicit AllAtOnce(std::span<Network const> networks) : networks_(networks), queue_(networks.size()) {
-        // Networks of similar size side by side: the widest decides what all of them cost.
-        std::iota(queue_.begin(), queue_.end(), 0);
-        std::stable_sort(queue_.begin(), queue_.end(), [&](int a, int b) {
-            Network const &m = networks_[static_cast<std::size_t>(a)], &n = networks_[static_cast<std::size_t>(b)];
-            return m.hidden_count != n.hidden_count ? m.hidden_count > n.hidden_count : m.edge_count() > n.edge_count();
-        });
-    }
-    std::optional<Episode> next() override {
-        if (next_ == queue_.size()) return std::nullopt;
-        int const number = queue_[next_++];
-        return Episode{number, &networks_[static_cast<std::size_t>(number)]};
-    }
-
-private:
-    std::span<Network const> networks_;
-    std::vector<int> queue_;
-    std::size_t next_ = 0;
-};
-
-/// The lanes, filled from a source whenever one is idle.
+/// The lanes, each filled by the client whenever it is idle.
 class LaneRun {
 public:
-    LaneRun(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps,
-            LaneObserver& observer)
-        : arena_(arena), config_(config), source_(source), chunk_steps_(chunk_steps), observer_(observer),
-          width_(lane_count()), run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
+    LaneRun(Arena const& arena, EpisodeConfig const& config, int chunk_steps, LaneClient& client)
+        : arena_(arena), config_(config), chunk_steps_(chunk_steps), client_(client), width_(lane_count()),
+          run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
         values_.assign_zeros(rows * continuous_count * columns);
         trail_x_.assign_zeros(rows * columns);
@@ -86,7 +62,7 @@ public:
             fill_idle_lanes();
             if (running_ == 0) return;
             if (networks_changed_) lay_networks();
-            auto const idle = [](Lane const& lane) { return lane.episode < 0; };
+            auto const idle = [](Lane const& lane) { return lane.idle(); };
             bool const one_is_enough = std::all_of(lanes_.begin() + width_ / lane_vectors, lanes_.end(), idle);
             work_.vectors = one_is_enough ? 1 : lane_vectors;
             run_chunk();
@@ -95,27 +71,25 @@ public:
 
 private:
     struct Lane {
-        int episode = -1;   ///< -1: idle
-        Network const* network = nullptr;
+        Network const* network = nullptr;   ///< null: idle
         int steps_left = 0;
         int still_steps = 0;
         int valid = 0;   ///< rows of this chunk
         WorldState world;
+        bool idle() const { return network == nullptr; }
     };
 
     void fill_idle_lanes() {
         for (int l = 0; l < width_; ++l) {
             Lane& lane = lanes_[static_cast<std::size_t>(l)];
-            if (lane.episode >= 0) continue;
-            auto const next = source_.next();
-            if (!next) return;
+            if (!lane.idle()) continue;
+            Network const* const network = client_.next(l);
+            if (network == nullptr) return;
             reset(l);   // the kernel moves idle lanes too
-            lane.episode = next->number;
-            lane.network = next->network;
+            lane.network = network;
             lane.steps_left = config_.steps;
             networks_changed_ = true;
             ++running_;
-            observer_.begin(l, lane.episode);
         }
     }
 
@@ -168,7 +142,7 @@ private:
     }
 
     void run_chunk() {
-        for (Lane& lane : lanes_) lane.valid = std::min(lane.steps_left, lane.episode < 0 ? 0 : chunk_steps_);
+        for (Lane& lane : lanes_) lane.valid = std::min(lane.steps_left, lane.idle() ? 0 : chunk_steps_);
         std::array<bool, most_lanes> ended{};
         std::array<WorldState, most_lanes> final_worlds;
         for (int row = 0; row < chunk_steps_;) {
@@ -185,8 +159,7 @@ private:
                 Lane& lane = lanes_[static_cast<std::size_t>(l)];
                 if (config_.stop_when_still > 0 && lane.valid >= row && stood_still(l))
                     lane.valid = lane.steps_left = row;
-                if (lane.episode < 0 || ended[static_cast<std::size_t>(l)] || lane.valid != row ||
-                    lane.steps_left != row)
+                if (lane.idle() || ended[static_cast<std::size_t>(l)] || lane.valid != row || lane.steps_left != row)
                     continue;
                 ended[static_cast<std::size_t>(l)] = true;
                 read_world(l);
@@ -196,18 +169,18 @@ private:
 
         std::array<int, most_lanes> valid{};
         for (std::size_t l = 0; l < lanes_.size(); ++l) valid[l] = lanes_[l].valid;
-        observer_.see({width_, chunk_steps_, work_.values, work_.words, work_.trail_x, work_.trail_y},
-                      {valid.data(), static_cast<std::size_t>(width_)});
+        client_.see({width_, chunk_steps_, work_.values, work_.words, work_.trail_x, work_.trail_y},
+                    {valid.data(), static_cast<std::size_t>(width_)});
         for (int l = 0; l < width_; ++l) {
             Lane& lane = lanes_[static_cast<std::size_t>(l)];
-            if (lane.episode < 0) continue;
+            if (lane.idle()) continue;
             lane.steps_left -= lane.valid;
             if (ended[static_cast<std::size_t>(l)]) {
-                observer_.end(l, final_worlds[static_cast<std::size_t>(l)]);
+                client_.end(l, final_worlds[static_cast<std::size_t>(l)]);
             } else if (config_.stop_when_still == 0 && at_rest(l)) {
-                observer_.rest(l, lane.steps_left);
+                client_.rest(l, lane.steps_left);
                 read_world(l);
-                observer_.end(l, lane.world);
+                client_.end(l, lane.world);
             } else {
                 continue;
             }
@@ -237,9 +210,8 @@ private:
 
     Arena const& arena_;
     EpisodeConfig const& config_;
-    EpisodeSource& source_;
     int chunk_steps_;
-    LaneObserver& observer_;
+    LaneClient& client_;
     int width_;
     RunSteps run_steps_;
     LaneArenaLayout arena_layout_;
@@ -257,16 +229,19 @@ private:
 
 int lane_count() { return lane_vectors * lanes_of(active_isa()); }
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, EpisodeSource& source, int chunk_steps,
-                  LaneObserver& observer) {
+void run_in_lanes(Arena const& arena, EpisodeConfig const& config, int chunk_steps, LaneClient& client) {
     assert(chunk_steps >= 1 && config.steps >= 1);
-    LaneRun{arena, config, source, chunk_steps, observer}.run();
+    LaneRun{arena, config, chunk_steps, client}.run();
 }
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, std::span<Network const> episodes, int chunk_steps,
-                  LaneObserver& observer) {
-    AllAtOnce source{episodes};
-    run_in_lanes(arena, config, source, chunk_steps, observer);
+std::vector<int> largest_first(std::span<Network const> networks) {
+    std::vector<int> order(networks.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        Network const &m = networks[static_cast<std::size_t>(a)], &n = networks[static_cast<std::size_t>(b)];
+        return m.hidden_count != n.hidden_count ? m.hidden_count > n.hidden_count : m.edge_count() > n.edge_count();
+    });
+    return order;
 }
 
 }   // namespace lore

@@ -1,4 +1,4 @@
-#include <lore/evaluation/evaluator.h>
+#include <lore/evaluation/evaluation_queue.h>
 
 #include <lore/core/isa.h>
 #include <lore/episode/lanes.h>
@@ -9,8 +9,6 @@
 #include <array>
 #include <cassert>
 #include <cstring>
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace lore {
@@ -33,11 +31,11 @@ ChunkKernel const& kernel_for(Isa isa) {
 /// A chunk's buffers should stay in the inner caches: 40 steps of 32 lanes are 43 kB.
 constexpr int usual_chunk_steps = 40;
 
-/// Turns what the lanes do into Evaluations, chunk by chunk, and keeps them busy from a feed.
-class Recorder : public LaneObserver, public EpisodeSource {
+/// Fills the lanes from a queue and turns what they do into Evaluations, chunk by chunk.
+class Recorder : public LaneClient {
 public:
-    Recorder(EvaluationContext const& context, EvaluationFeed& feed)
-        : context_(context), feed_(feed), kernel_(kernel_for(active_isa())) {
+    Recorder(EvaluationContext const& context, EvaluationQueue& queue)
+        : context_(context), queue_(queue), kernel_(kernel_for(active_isa())) {
         if (context.shaper) {
             window_length_ = context.shaper->base().config().window_length;
             reader_.emplace(context.shaper->reader());
@@ -51,16 +49,12 @@ public:
                                    : window_length_ * std::max(1, usual_chunk_steps / window_length_);
     }
 
-    std::optional<Episode> next() override {
-        auto const item = feed_.next();
-        if (!item) return std::nullopt;
-        Network const& network = networks_[item->ticket] = compile(*item->genome);
-        return Episode{item->ticket, &network};
-    }
-
-    void begin(int lane, int ticket) override {
+    Network const* next(int lane) override {
+        auto const item = queue_.next();
+        if (!item) return nullptr;
         Lane& now = at(lane);
-        now.ticket = ticket;
+        now.ticket = item->ticket;
+        now.network = compile(*item->genome);
         now.steps = 0;
         now.shaping = {};
         std::size_t const steps = static_cast<std::size_t>(context_.episode.steps);
@@ -69,6 +63,7 @@ public:
         now.path.clear();
         for (auto& channel : tally_.counts)
             for (auto& bin : channel) bin[lane] = 0;
+        return &now.network;
     }
 
     void see(LaneChunk const& chunk, std::span<int const> valid) override {
@@ -95,7 +90,7 @@ public:
             now.steps += rows;
         }
         last_ = chunk;
-        feed_.pulse();
+        queue_.pulse();
     }
 
     void rest(int lane, int steps) override {
@@ -135,13 +130,13 @@ public:
         kernel_.count_ones(d.bits.data(), now.steps, ones);
         std::copy_n(ones, binary_count, histograms.ones.begin());
         d.entropies = entropies(histograms, now.steps);
-        networks_.erase(now.ticket);
-        feed_.deliver(now.ticket, std::move(e));
+        queue_.deliver(now.ticket, std::move(e));
     }
 
 private:
     struct Lane {
         int ticket = 0;
+        Network network;
         int steps = 0;
         std::vector<std::uint16_t> bits;
         std::vector<Tile> path;
@@ -171,8 +166,7 @@ private:
     }
 
     EvaluationContext const& context_;
-    EvaluationFeed& feed_;
-    std::map<int, Network> networks_;   ///< of those under way; a map, so that they stay where they are
+    EvaluationQueue& queue_;
     ChunkKernel const& kernel_;
     int window_length_ = 0;
     std::optional<Shaper::Reader> reader_;
@@ -183,48 +177,34 @@ private:
     std::vector<std::uint16_t> idle_;    ///< where words of idle lanes go
 };
 
-/// Genomes that are all there, handed out by size: lanes cost what the widest network among them costs.
-class AllAtOnce : public EvaluationFeed {
+/// A request that this rank evaluates alone.
+class WholeRequest : public EvaluationQueue {
 public:
-    explicit AllAtOnce(std::span<Genome const* const> genomes)
-        : evaluations(genomes.size()), genomes_(genomes), order_(genomes.size()) {
-        std::iota(order_.begin(), order_.end(), 0);
-        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return larger(*at(a), *at(b)); });
-    }
+    explicit WholeRequest(Request& request) : request_(request) {}
     std::optional<Item> next() override {
-        if (next_ == order_.size()) return std::nullopt;
-        int const ticket = order_[next_++];
-        return Item{ticket, at(ticket)};
+        if (request_.left() == 0) return std::nullopt;
+        int const ticket = request_.next_ticket();
+        request_.hand_out(1);
+        return Item{ticket, &request_.genome(ticket)};
     }
-    void deliver(int ticket, Evaluation evaluation) override {
-        evaluations[static_cast<std::size_t>(ticket)] = std::move(evaluation);
-    }
-
-    std::vector<Evaluation> evaluations;
+    void deliver(int ticket, Evaluation evaluation) override { request_.deliver(ticket, std::move(evaluation)); }
 
 private:
-    Genome const* at(int ticket) const { return genomes_[static_cast<std::size_t>(ticket)]; }
-
-    std::span<Genome const* const> genomes_;
-    std::vector<int> order_;
-    std::size_t next_ = 0;
+    Request& request_;
 };
 
 }   // namespace
 
-bool larger(Genome const& a, Genome const& b) {
-    return a.biases.size() != b.biases.size() ? a.biases.size() > b.biases.size() : a.edges.size() > b.edges.size();
-}
-
-void evaluate_stream(EvaluationContext const& context, EvaluationFeed& feed) {
-    Recorder recorder{context, feed};
-    run_in_lanes(context.arena, context.episode, recorder, recorder.chunk_steps(), recorder);
+void evaluate_queue(EvaluationContext const& context, EvaluationQueue& queue) {
+    Recorder recorder{context, queue};
+    run_in_lanes(context.arena, context.episode, recorder.chunk_steps(), recorder);
 }
 
 std::vector<Evaluation> evaluate_batch(EvaluationContext const& context, std::span<Genome const* const> genomes) {
-    AllAtOnce feed{genomes};
-    evaluate_stream(context, feed);
-    return std::move(feed.evaluations);
+    Request request{genomes};
+    WholeRequest queue{request};
+    evaluate_queue(context, queue);
+    return std::move(request).results();
 }
 
 }   // namespace lore

@@ -18,12 +18,7 @@ Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& geno
     return evaluation;
 }
 
-void Evaluator::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known,
-                        DistanceMatrix& matrix) {
-    measure_rows(kind, pool, known, static_cast<int>(pool.size()), matrix);
-}
-
-std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const> genomes, Audience*) {
+std::vector<Evaluation> SerialEvaluator::evaluate(std::span<Genome const* const> genomes, CompletionListener*) {
     return evaluate_batch(context_, genomes);
 }
 

@@ -47,10 +47,11 @@ Newborns breed(Population const& parents, EvolutionConfig const& config, std::ui
 
 bool by_share(EvolutionConfig const& config) { return config.use_shaping && config.shaping.rule == ShapingRule::share; }
 
-std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Audience& audience, bool by_share) {
+std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, CompletionListener& listener,
+                                 bool by_share) {
     std::vector<Genome const*> genomes;
     for (auto const& birth : born) genomes.push_back(&birth->genome);
-    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, &audience);
+    std::vector<Evaluation> evaluations = evaluator.evaluate(genomes, &listener);
     assert(evaluations.size() == born.size());
     std::vector<Individual> individuals;
     for (std::size_t k = 0; k < born.size(); ++k) {
@@ -72,7 +73,8 @@ Population join(Population parents, std::vector<Individual> children) {
     return parents;
 }
 
-/// Diversity of everybody within the pool.
+/// Sets the diversity of every member within the pool. Any other objective that compares members is set likewise,
+/// between this and the ranking.
 void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances) {
     pool.distances = std::move(distances);
     pool.distance_kind = kind;
@@ -168,8 +170,9 @@ std::vector<Genome> founder_genomes(EvolutionConfig const& config, std::uint64_t
     return genomes;
 }
 
-EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator, EvolutionState state,
-                      GenerationObserver const& observer, std::span<Genome const> origin) {
+EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator,
+                      DistanceMeasurer& measurer, EvolutionState state, GenerationObserver const& observer,
+                      std::span<Genome const> origin) {
     int const first = state.population.members.empty() ? 0 : state.population.generation + 1;
     for (int generation = first; generation <= config.generations; ++generation) {
         Stopwatch watch;
@@ -186,14 +189,14 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
 
         Population pool = join(std::move(state.population), std::move(children));
         pool.generation = generation;
-        set_diversity(pool, kind, std::move(distances).finish(pool, evaluator));
+        set_diversity(pool, kind, std::move(distances).finish(pool, measurer));
         set_shaping(pool, config);
         auto const judged = std::span<Individual const>{pool.members}.last(born.size());
         for (std::size_t k = 0; k < born.size(); ++k) {
             born[k]->diversity = judged[k].diversity;
             born[k]->shaping = judged[k].shaping;
         }
-        watch.lap();   // evaluating and measuring: the evaluator accounts for them
+        watch.lap();   // evaluating and measuring, which the farm accounts for
 
         Ranking const ranking = rank(pool, config, seed, shaping_serves);
         state.population = survivors(pool, ranking.survivors);
@@ -205,6 +208,12 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
             break;
     }
     return state;
+}
+
+EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluator& evaluator, EvolutionState state,
+                      GenerationObserver const& observer, std::span<Genome const> origin) {
+    SerialMeasurer measurer;
+    return evolve(config, seed, evaluator, measurer, std::move(state), observer, origin);
 }
 
 Individual const& best_of_run(Population const& population) {

@@ -36,8 +36,8 @@ std::vector<std::vector<int>> non_dominated_fronts_plainly(std::span<Objectives 
 
 std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> points) {
     // Efficient non-dominated sort with binary search (ENS-BS, Zhang et al. 2015): in lexicographic order, best first,
-    // nobody is dominated by a later one, and who is dominated by some member of front f is dominated by some member of
-    // every earlier front. So each finds its front by bisection against those already placed.
+    // no point is dominated by a later one, and a point that is dominated by a member of front f is dominated by a
+    // member of every earlier front. So bisection over the fronts of the points already placed finds the front of each.
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -48,7 +48,7 @@ std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> p
     std::size_t front = 0;
     for (std::size_t place = 0; place < order.size(); ++place) {
         int const i = order[place];
-        // Ties are massive: equals follow each other and share a front.
+        // Many points are equal. They follow each other and share a front.
         if (place == 0 || !(points[order[place - 1]] == points[i])) {
             auto const dominated_in = [&](std::vector<int> const& members) {
                 return std::any_of(members.rbegin(), members.rend(),

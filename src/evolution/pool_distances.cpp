@@ -9,8 +9,8 @@ namespace lore {
 namespace {
 
 /// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave
-/// more to the end. While there is nothing else to do, few are enough.
-constexpr int enough = 96, enough_in_a_lull = 16;
+/// more to the end. While this rank is idle, few are enough.
+constexpr int enough = 96, enough_when_idle = 16;
 
 }   // namespace
 
@@ -23,13 +23,13 @@ PoolDistances::PoolDistances(Population const& parents, int children, DistanceKi
     for (Individual const& parent : parents.members) shown_.push_back(parent.descriptors.get());
 }
 
-void PoolDistances::arrive(int child, Evaluation const& evaluation) {
+void PoolDistances::completed(int child, Evaluation const& evaluation) {
     order_.push_back(parents_ + child);
     shown_.push_back(&evaluation.descriptors);
     measure_if_waiting(enough);
 }
 
-void PoolDistances::lull() { measure_if_waiting(enough_in_a_lull); }
+void PoolDistances::idle() { measure_if_waiting(enough_when_idle); }
 
 void PoolDistances::measure_if_waiting(int least) {
     int const present = static_cast<int>(shown_.size());
@@ -38,7 +38,7 @@ void PoolDistances::measure_if_waiting(int least) {
     measured_ = present;
 }
 
-DistanceMatrix PoolDistances::finish(Population const& pool, Evaluator& evaluator) && {
+DistanceMatrix PoolDistances::finish(Population const& pool, DistanceMeasurer& measurer) && {
     assert(static_cast<int>(pool.members.size()) == matrix_.size());
     std::vector<int> place(pool.members.size(), -1);   // of a member in order_
     for (std::size_t k = 0; k < order_.size(); ++k) place[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
@@ -49,7 +49,7 @@ DistanceMatrix PoolDistances::finish(Population const& pool, Evaluator& evaluato
         }
     shown_.clear();
     for (int const member : order_) shown_.push_back(pool.members[static_cast<std::size_t>(member)].descriptors.get());
-    evaluator.measure(kind_, shown_, measured_, matrix_);
+    measurer.measure(kind_, shown_, measured_, matrix_);
     return std::is_sorted(order_.begin(), order_.end()) ? std::move(matrix_) : matrix_.select(place);
 }
 

@@ -50,7 +50,7 @@ std::uint64_t tie_key(TieRule rule, std::uint64_t seed, int generation, Individu
     case TieRule::random: break;
     }
     // The stream's counter has one word for the id, which has two: the generation of birth goes to its upper half. Two
-    // ids share a counter only beyond 65 536 slots or generations, and would then merely share their luck.
+    // ids share a counter, and so a key, only beyond 65 536 slots or generations.
     std::uint32_t const who = std::rotl(id.generation, 16) ^ id.slot;
     return Stream{seed, Purpose::tie, static_cast<std::uint32_t>(generation), who}.bits64();
 }

@@ -26,14 +26,15 @@ BenchOutcome run_bench(Session const& session) {
     WorkOrder const order{bench_config(), arena_text("collectball"), "", ""};
     EvaluationContext context = context_of(order);
     give_order(session, order);
-    Farm farm{session.world(), evaluation_in(std::move(context))};
+    Farm farm{session.world(), std::move(context)};
     std::uint64_t evaluations = 0;
     Stopwatch const watch;
+    auto const count = [&](GenerationReport const& report) {
+        evaluations += report.born.size();
+        return true;
+    };
     EvolutionState const state =
-        evolve(order.config.evolution, bench_seed, farm, {}, [&](GenerationReport const& report) {
-            evaluations += report.born.size();
-            return true;
-        });
+        evolve(order.config.evolution, bench_seed, farm.evaluator(), farm.distances(), {}, count);
     double const seconds = watch.total();
     return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
 }

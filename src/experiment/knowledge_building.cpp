@@ -89,12 +89,16 @@ private:
 struct Abandoned {};
 
 /// Gathers the sensorimotor records of episodes that run in lanes.
-class Recorder : public LaneObserver {
+class Recorder : public LaneClient {
 public:
-    explicit Recorder(std::vector<Trace>& traces) : traces_(traces) {}
+    Recorder(std::span<Network const> networks, std::vector<Trace>& traces)
+        : networks_(networks), order_(largest_first(networks)), traces_(traces) {}
 
-    void begin(int lane, int episode) override {
-        episodes_[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(episode);
+    Network const* next(int lane) override {
+        if (next_ == order_.size()) return nullptr;
+        std::size_t const episode = episodes_[static_cast<std::size_t>(lane)] =
+            static_cast<std::size_t>(order_[next_++]);
+        return &networks_[episode];
     }
 
     void see(LaneChunk const& chunk, std::span<int const> valid) override {
@@ -122,6 +126,9 @@ public:
     }
 
 private:
+    std::span<Network const> networks_;
+    std::vector<int> order_;
+    std::size_t next_ = 0;
     std::vector<Trace>& traces_;
     std::array<std::size_t, most_lanes> episodes_{};
 };
@@ -132,8 +139,8 @@ void simulate(RunDirectory const& run, Batch& batch) {
         trace.bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
         trace.values.reserve(static_cast<std::size_t>(run.config.episode.steps) * continuous_count);
     }
-    Recorder recorder{batch.traces};
-    run_in_lanes(run.arena, run.config.episode, batch.networks, chunk_steps, recorder);
+    Recorder recorder{batch.networks, batch.traces};
+    run_in_lanes(run.arena, run.config.episode, chunk_steps, recorder);
     for (std::size_t i = 0; i < batch.size(); ++i)
         if (batch.traces[i].final_world.collected != batch.balls[i])
             throw Error(

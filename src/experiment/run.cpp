@@ -2,6 +2,7 @@
 
 #include "run_books.h"
 #include "run_setup.h"
+#include "stop_request.h"
 #include "time_report.h"
 #include "work_order.h"
 
@@ -10,7 +11,6 @@
 #include <lore/core/progress.h>
 #include <lore/core/stopwatch.h>
 #include <lore/experiment/run_directory.h>
-#include <lore/experiment/stop_request.h>
 
 #include <fmt/format.h>
 
@@ -168,7 +168,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::vector<double> feature_values = values_for_the_pool(run.context);
     std::vector<std::string> hosts = give_order(session, run.setup.order);
     // Releases the others whatever happens from here on.
-    Farm farm{session.world(), evaluation_in(std::move(run.context))};
+    Farm farm{session.world(), std::move(run.context)};
     EvolutionConfig evolution = run.setup.order.config.evolution;
     evolution.feature_values = std::move(feature_values);
     std::uint64_t const seed = run.setup.seed;
@@ -179,7 +179,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
                           state.population.members.empty() ? -1 : state.population.generation};
     try {
         auto const observe = [&](GenerationReport const& report) { return supervisor.after_generation(report); };
-        state = evolve(evolution, seed, farm, std::move(state), observe, founders);
+        state = evolve(evolution, seed, farm.evaluator(), farm.distances(), std::move(state), observe, founders);
     } catch (std::exception const&) {
         Error const told = failure_in_hand(supervisor.generation() + 1, genome_path);
         if (farm.broken()) end_all(session, told);

@@ -1,4 +1,4 @@
-#include <lore/experiment/stop_request.h>
+#include "stop_request.h"
 
 #include <fmt/format.h>
 

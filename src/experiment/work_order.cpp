@@ -1,9 +1,10 @@
 #include "work_order.h"
 
+#include "stop_request.h"
+
 #include <lore/archive/checksum.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/experiment/run.h>
-#include <lore/experiment/stop_request.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -75,12 +76,6 @@ EvaluationContext context_of(WorkOrder const& order) {
     return context;
 }
 
-StreamEvaluation evaluation_in(EvaluationContext context) {
-    return [context = std::make_shared<EvaluationContext const>(std::move(context))](EvaluationFeed& feed) {
-        evaluate_stream(*context, feed);
-    };
-}
-
 std::vector<std::string> give_order(Session const& session, WorkOrder const& order) {
     session.world().broadcast(pack(order));
     std::vector<std::string> hosts;
@@ -102,16 +97,16 @@ void work_for_rank_0(Session const& session) {
     Bytes const order = session.world().broadcast({});
     if (order.empty()) return;
     std::string answer;
-    StreamEvaluation evaluation;
+    std::optional<EvaluationContext> context;
     try {
-        evaluation = evaluation_in(context_of(unpack(order)));
+        context = context_of(unpack(order));
         answer = std::string{ready} + host_name();
     } catch (std::exception const& error) {
         answer = fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what());
     }
     session.world().gather(answer);
     if (!session.world().broadcast({}).empty()) return;
-    serve(session.world(), evaluation);
+    serve(session.world(), *std::move(context));
 }
 
 }   // namespace lore

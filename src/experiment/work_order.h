@@ -21,8 +21,6 @@ struct WorkOrder {
 
 /// Throws Error: the knowledge base is missing or damaged, or does not fit.
 EvaluationContext context_of(WorkOrder const&);
-/// How a rank evaluates in that context.
-StreamEvaluation evaluation_in(EvaluationContext);
 
 /// Rank 0: gives the order and hears from everybody that it can work. Returns the ranks' host names.
 /// Throws Error with the first complaint; everybody is released then.

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <lore/archive/container.h>
-#include <lore/evaluation/evaluator.h>
+#include <lore/behavior/distance_matrix.h>
+#include <lore/evaluation/evaluation.h>
 
 #include <span>
 #include <vector>

@@ -2,19 +2,16 @@
 
 #include <lore/cluster/session.h>
 #include <lore/core/error.h>
+#include <lore/behavior/distance_measurer.h>
 #include <lore/evaluation/evaluator.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace lore {
 
-/// How a rank evaluates: evaluate_stream with a context bound to it.
-using StreamEvaluation = std::function<void(EvaluationFeed&)>;
-
-/// An evaluation that threw, on whatever rank.
+/// An evaluation that threw, on any rank.
 class EvaluationFailure : public Error {
 public:
     EvaluationFailure(int index, int rank, Genome genome, std::string reason);
@@ -32,41 +29,37 @@ private:
 /// Where a rank's time went [s].
 struct RankTimes {
     double evaluation = 0;
-    double distances = 0;   ///< of rank 0 with all that it does about evaluations that arrive
-    double waiting = 0;     ///< with nothing to do but poll; of rank 0 while a request was under way
+    double distances = 0;   ///< on rank 0 with the listener's time while other ranks evaluate
+    double waiting = 0;     ///< polling for messages; on rank 0 only while a request is under way
 };
 
-/// The ranks of a communicator as one Evaluator, on rank 0. The others are in serve().
+/// The ranks of a communicator, at work for rank 0. The others are in serve() with an equal context.
 ///
-/// Rank 0 hands genomes to its own lanes one by one and to the others in sets that fill their lanes, one set ahead; it
-/// looks after them every few microseconds. A set takes the same time however few it holds, so workers are given whole
-/// ones as long as possible, and rank 0, which has other things to do, what is left.
-/// Results come back in the order of the request whoever made them: any number of ranks gives what one gives.
-class Farm : public Evaluator {
+/// Both interfaces send their parts to all ranks and work on rank 0 too. Any number of ranks gives the results that one
+/// gives, in the order of the request. Used by one thread, one request at a time.
+class Farm {
 public:
-    Farm(Communicator, StreamEvaluation);
+    Farm(Communicator, EvaluationContext);
     /// Stops the workers, unless broken().
-    ~Farm() override;
+    ~Farm();
 
-    /// Throws EvaluationFailure. With other ranks at work, announces every evaluation.
-    std::vector<Evaluation> evaluate(std::span<Genome const* const>, Audience* = nullptr) override;
-    /// Trajectory distances are shared, row ranges of equal area; the others take less time than their descriptors'
-    /// way.
-    void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
+    /// Valid as long as the farm. evaluate() throws EvaluationFailure, and notifies its listener of every evaluation if
+    /// there are other ranks.
+    Evaluator& evaluator();
+    /// Valid as long as the farm. measure() throws Error if another rank fails.
+    DistanceMeasurer& distances();
 
-    /// A failure has been thrown while other ranks were at work: the program must end by Session::abort.
+    /// A request has failed while other ranks were at work: the program must end by Session::abort.
     bool broken() const;
-    /// Sends the workers home; returns what each rank, in order, spent its time on. No request may follow.
+    /// Ends serve() on the other ranks; returns what each rank, in order, spent its time on. No request may follow.
     std::vector<RankTimes> stop();
 
 private:
-    struct State;
-    class OwnFeed;
-    std::vector<Evaluation> evaluate_everywhere(std::span<Genome const* const>, Audience*);
-    std::unique_ptr<State> state_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
-/// Works for the Farm on rank 0 until it stops.
-void serve(Communicator const&, StreamEvaluation const&);
+/// Works for the Farm on rank 0 until it stops. Sends failures there.
+void serve(Communicator const&, EvaluationContext);
 
 }   // namespace lore

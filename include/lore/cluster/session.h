@@ -8,7 +8,8 @@
 
 namespace lore {
 
-/// A group of ranks that talk to each other, or one process alone. Cheap to copy; MPI stays behind it.
+/// A group of ranks that exchange messages, or one process without MPI. Cheap to copy; hides MPI. Of no use once the
+/// Session has ended.
 class Communicator {
 public:
     /// This process alone, without MPI.
@@ -16,7 +17,9 @@ public:
     int rank() const;
     int size() const;
 
-    // Collective: every rank calls them in the same order.
+    // Collective: every rank calls them in the same order. At most 2 GiB in all; an MPI error ends the program.
+
+    /// Rank 0's bytes on every rank; what other ranks pass is ignored.
     std::vector<std::byte> broadcast(std::vector<std::byte> from_rank_0) const;
     /// Every rank's text, in order of rank, on rank 0; empty elsewhere.
     std::vector<std::string> gather(std::string const& text) const;
@@ -32,10 +35,11 @@ private:
 /// MPI from the program's start to its end. A process that no launcher has started runs alone and never touches MPI.
 class Session {
 public:
-    /// Throws UsageError where srun without a matching PMI has started independent processes that each think they are
-    /// alone.
+    /// Throws UsageError if srun without a matching PMI has started several independent processes, each of which would
+    /// run alone.
     Session(int& argc, char**& argv);
-    /// Finalises: every rank must come here, so nobody may leave by an exception that others do not share (abort).
+    /// Finalizes MPI, which waits for all ranks: a rank that fails alone must call abort() instead of leaving by an
+    /// exception.
     ~Session();
     Session(Session const&) = delete;
     Session& operator=(Session const&) = delete;
@@ -43,7 +47,7 @@ public:
     Communicator const& world() const { return world_; }
     int rank() const { return world_.rank(); }
     int size() const { return world_.size(); }
-    /// Ends all ranks at once, wherever they are.
+    /// Ends all ranks at once with this exit code, whatever they do; writes out the standard streams first.
     [[noreturn]] void abort(int exit_code) const;
 
 private:

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <lore/behavior/distance_measurer.h>
 #include <lore/behavior/diversity.h>
 #include <lore/core/signature.h>
+#include <lore/evaluation/evaluator.h>
 #include <lore/evolution/selection.h>
 #include <lore/evolution/shaping.h>
 #include <lore/network/mutation.h>
@@ -45,19 +47,23 @@ struct GenerationReport {
     DistanceKind distance = DistanceKind::adhoc;
     bool shaping_serves = false;   ///< RS stood in the place of BD (ShapingUse::distance)
     int fronts = 0;
-    std::span<Individual const> born;        ///< everybody evaluated in this generation
+    std::span<Individual const> born;        ///< all that were evaluated in this generation; valid during the call
     EvolutionState const* state = nullptr;   ///< after selection
-    double selection_seconds = 0;   ///< spent on breeding, ranking and choosing; the evaluator knows its own times
+    double selection_seconds = 0;            ///< breeding, ranking and choosing; the farm accounts for the rest [s]
 };
 
-/// Called after each generation, the founders' (0) included; returns whether to go on.
+/// Called after each generation, the founders' (0) included; false stops evolution.
 using GenerationObserver = std::function<bool(GenerationReport const&)>;
 
 /// The paper's method (NSGA-II with dynamic behavioral diversity) from `state`, or from the founders where it is
-/// empty, to config.generations or until the observer says stop. A pure function of config, seed, evaluator and origin.
+/// empty, to config.generations or until the observer says stop. A pure function of config, seed, state and origin:
+/// evaluator and measurer decide where the work is done. Passes on what they throw; the state is lost then.
 ///
 /// `origin` are the genomes that founders come from, as config.founding says; none: all founders are random.
 /// Precondition: they are valid and within config.limits.
+EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, DistanceMeasurer&, EvolutionState state,
+                      GenerationObserver const&, std::span<Genome const> origin = {});
+/// The same with distances measured in this process.
 EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state,
                       GenerationObserver const&, std::span<Genome const> origin = {});
 
@@ -65,7 +71,7 @@ EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, Ev
 /// stream (seed, founder_mutation, 0, i); the others are random: founder(), from the stream (seed, founder, 0, i).
 std::vector<Genome> founder_genomes(EvolutionConfig const&, std::uint64_t seed, std::span<Genome const> origin);
 
-/// Most balls in the population; ties: the earliest born, then the lowest slot.
+/// Most balls in the population; ties: the earliest born, then the lowest slot. The population must not be empty.
 Individual const& best_of_run(Population const&);
 
 }   // namespace lore

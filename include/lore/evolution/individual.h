@@ -1,6 +1,7 @@
 #pragma once
 
-#include <lore/evaluation/evaluator.h>
+#include <lore/behavior/distance_matrix.h>
+#include <lore/evaluation/evaluation.h>
 
 #include <array>
 #include <compare>
@@ -10,26 +11,26 @@
 
 namespace lore {
 
-/// Who an individual is: the generation of its birth and its place among those born then. No counter anywhere.
-/// Ordered by birth.
+/// An individual's name: the generation of its birth and its place among the individuals born then. Ordered by birth.
 struct IndividualId {
     std::uint32_t generation = 0;
     std::uint32_t slot = 0;
     friend auto operator<=>(IndividualId const&, IndividualId const&) = default;
 };
 
-/// An individual as its descendants remember it; shared by them, gone with the last of them.
+/// What remains of an individual for its lineage; shared by its descendants and released with the last of them.
 struct Birth {
     IndividualId id;
     std::shared_ptr<Birth const> parent;   ///< null for founders
     Genome genome;
     int balls = 0;
-    double shaping = no_feature_value;   ///< RS; by rule share, in the joint ranking of its generation of birth
-    double diversity = 0;                ///< BD in the joint ranking of its generation of birth
+    double shaping = no_feature_value;   ///< RS; by rule share, in the joint ranking of the generation it was born in
+    double diversity = 0;                ///< BD in the joint ranking of the generation it was born in
     ~Birth();                            ///< releases a long lineage without recursion
 };
 
-/// Objectives, all maximized, in the order of the treatment (balls, diversity, shaping).
+/// The first `count` values (1 to 3, finite) are objectives, all maximized, in the order of the treatment (balls,
+/// diversity, shaping); the others are 0.
 struct Objectives {
     std::array<double, 3> value{};
     int count = 0;
@@ -51,8 +52,8 @@ struct Individual {
 struct Population {
     int generation = 0;
     std::vector<Individual> members;
-    /// Of the members, by the distance that served last. May be empty (a checkpoint need not keep it): then it is
-    /// measured anew, with the same result.
+    /// Of the members, by distance_kind. May be empty, since a checkpoint need not keep it: evolve then measures it
+    /// again, with the same result.
     DistanceMatrix distances;
     DistanceKind distance_kind = DistanceKind::adhoc;
 };

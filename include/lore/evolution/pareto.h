@@ -8,14 +8,15 @@
 
 namespace lore {
 
-// Pareto functions on plain vectors (Deb et al. 2002), maximizing.
+// Pareto functions on plain vectors (NSGA-II: Deb et al. 2002), maximizing. All points have equally many objectives,
+// none of them NaN.
 
 /// At least as good in every objective and better in one.
 bool dominates(Objectives const& a, Objectives const& b);
 
-/// Fronts of indices into `points`, best first; inside a front in increasing index.
+/// Fronts of indices into `points`, best first; inside a front in increasing index. Every index is in one front.
 std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> points);
-/// The plain twin, by definition O(n^2 m) per front; for tests.
+/// The plain twin by definition, O(n^2 m) per front, for tests.
 std::vector<std::vector<int>> non_dominated_fronts_plainly(std::span<Objectives const> points);
 
 /// Crowding distance of each member of one front, in the order of `front`. Per objective the members are sorted by

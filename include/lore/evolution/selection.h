@@ -6,30 +6,31 @@
 
 namespace lore {
 
-/// How sorts and cuts order equals (docs/design/model.md). Discrete balls make this matter more than one would think.
+/// How sorts and cuts order equal individuals (docs/design/model.md). Ties are frequent, since balls are discrete.
 enum class TieRule : std::uint8_t { random, older, younger };
 std::string_view name(TieRule);
 TieRule tie_rule(std::string_view name);   ///< throws UsageError
 
-/// Smaller comes first. random: from the stream (seed, tie, present generation, id), so that an individual's luck
-/// changes from generation to generation; older, younger: by birth.
+/// The smaller key comes first. random: from the stream (seed, tie, present generation, id), so that keys change from
+/// generation to generation; older, younger: by birth.
 std::uint64_t tie_key(TieRule, std::uint64_t seed, int generation, IndividualId);
 
 /// Parents of `count` children by binary tournaments, as indices into `members`.
 ///
 /// Shuffles of the population are laid end to end and cut into pairs, so that every member takes part in exactly two
-/// tournaments when count equals the population. In an odd population one pair straddles two shuffles; should it be the
-/// same member twice, it meets the next one instead. The winner dominates, else has the larger crowding distance, else
-/// a coin; objectives and crowding are those of the last joint ranking.
+/// tournaments when count equals the population. In an odd population one pair straddles two shuffles; if it would be
+/// the same member twice, the next member takes one place. The winner dominates, else has the larger crowding distance,
+/// else a coin decides; objectives and crowding are those of the last joint ranking. Needs a member.
 std::vector<int> tournament_winners(std::span<Individual const> members, int count, std::uint64_t seed, int generation);
 
-/// What a joint ranking found.
+/// The result of a joint ranking.
 struct Ranking {
     std::vector<int> survivors;     ///< indices into the pool, front by front, in a front by crowding then tie key
     std::vector<double> crowding;   ///< of every member of the pool
     int fronts = 0;
 };
-/// Whole fronts until one must be cut by crowding distance.
+/// Takes whole fronts until one must be cut by crowding distance (Deb et al. 2002). `survivors` is at most the pool's
+/// size, and each member has a tie key.
 Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> tie_keys, int survivors);
 
 }   // namespace lore

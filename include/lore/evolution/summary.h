@@ -20,7 +20,7 @@ struct GenerationSummary {
     double mean_hidden = 0;
     int fronts = 0;                  ///< of the joint ranking
     int tied = 0;                    ///< survivors that share all objectives with another one
-    double shaping_at_max = 0;       ///< share that holds the best shaping value; 0 where nobody matched a feature
+    double shaping_at_max = 0;       ///< share that holds the best shaping value; 0 if no survivor matched one
     std::uint64_t evaluations = 0;   ///< in this generation; in progress.csv, since the run began
     std::uint64_t steps = 0;         ///< recorded by these evaluations, likewise [steps]
     double seconds = 0;              ///< of wall time since the run began, in all sessions [s]; not told by a report

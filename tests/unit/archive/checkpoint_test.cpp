@@ -51,7 +51,8 @@ TEST(Checkpoint, continues_to_the_same_bytes_as_a_straight_run_from_any_generati
 TEST(Checkpoint, keeps_the_features_shown_of_a_run_shaped_by_share) {
     class Shows : public PretendedEvaluator {
     public:
-        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* audience) override {
+        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
+                                         CompletionListener* audience) override {
             auto evaluations = PretendedEvaluator::evaluate(genomes, audience);
             for (std::size_t i = 0; i < genomes.size(); ++i)
                 for (std::uint32_t feature = 0; feature < 3; ++feature)

@@ -9,7 +9,7 @@ class PretendedEvaluator : public Evaluator {
 public:
     explicit PretendedEvaluator(int steps = 100) : steps_(steps) {}
 
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* = nullptr) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, CompletionListener* = nullptr) override {
         std::vector<Evaluation> evaluations;
         for (Genome const* genome : genomes) evaluations.push_back(pretend(*genome, steps_));
         return evaluations;

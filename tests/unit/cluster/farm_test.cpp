@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <deque>
 
 using namespace lore;
 
@@ -14,27 +13,10 @@ namespace {
 
 Session* session = nullptr;
 
-constexpr int steps = 4000;   // so that messages have the size of real ones
-
-std::vector<Evaluation> pretend(std::span<Genome const* const> genomes) {
-    return PretendedEvaluator{steps}.evaluate(genomes);
-}
-
-/// Several under way at once, as in lanes.
-void pretend_stream(EvaluationFeed& feed) {
-    constexpr std::size_t lanes = 5;
-    std::deque<std::pair<int, Genome>> under_way;
-    while (true) {
-        while (under_way.size() < lanes) {
-            auto const item = feed.next();
-            if (!item) break;
-            under_way.emplace_back(item->ticket, *item->genome);
-        }
-        if (under_way.empty()) return;
-        feed.deliver(under_way.front().first, PretendedEvaluator::pretend(under_way.front().second, steps));
-        under_way.pop_front();
-        feed.pulse();
-    }
+/// Of evaluations long enough for messages of the usual size, and for robots that touch things.
+EvaluationContext const& context() {
+    static EvaluationContext const source{load_arena("collectball", "source"), {1000, 0}, {}};
+    return source;
 }
 
 /// Rank 0 says what comes next; see main.
@@ -43,7 +25,7 @@ void call_workers(char word) { session->world().broadcast({static_cast<std::byte
 /// A Farm whose workers have been called to serve.
 struct Served {
     Served() { call_workers('s'); }
-    Farm farm{session->world(), pretend_stream};
+    Farm farm{session->world(), context()};
 };
 
 std::vector<Genome> founders(int count, std::uint32_t generation) {
@@ -61,7 +43,7 @@ TEST(Farm, gives_evaluations_in_the_order_of_the_request) {
         auto const genomes = founders(count, static_cast<std::uint32_t>(count));
         std::vector<Genome const*> pointers;
         for (Genome const& genome : genomes) pointers.push_back(&genome);
-        EXPECT_EQ(served.farm.evaluate(pointers), pretend(pointers)) << count;
+        EXPECT_EQ(served.farm.evaluator().evaluate(pointers), evaluate_batch(context(), pointers)) << count;
     }
 }
 
@@ -74,23 +56,23 @@ TEST(ShareOfAWorker, is_even_in_half_sets_and_leaves_the_rest_to_rank_0) {
     EXPECT_EQ(share_of_a_worker(5, 2, 1), 3) << "without lanes";
 }
 
-TEST(Farm, announces_each_evaluation_once_where_others_are_at_work) {
+TEST(Farm, notifies_of_each_evaluation_once_where_others_are_at_work) {
     Served served;
     auto const genomes = founders(200, 0);
     std::vector<Genome const*> pointers;
     for (Genome const& genome : genomes) pointers.push_back(&genome);
-    struct : Audience {
+    struct : CompletionListener {
         std::vector<Evaluation> expected;
-        std::vector<int> announced;
-        void arrive(int index, Evaluation const& evaluation) override {
-            ++announced[static_cast<std::size_t>(index)];
+        std::vector<int> notified;
+        void completed(int index, Evaluation const& evaluation) override {
+            ++notified[static_cast<std::size_t>(index)];
             EXPECT_EQ(evaluation, expected[static_cast<std::size_t>(index)]) << index;
         }
-    } audience;
-    audience.expected = pretend(pointers);
-    audience.announced.assign(genomes.size(), 0);
-    served.farm.evaluate(pointers, &audience);
-    EXPECT_EQ(audience.announced, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
+    } listener;
+    listener.expected = evaluate_batch(context(), pointers);
+    listener.notified.assign(genomes.size(), 0);
+    served.farm.evaluator().evaluate(pointers, &listener);
+    EXPECT_EQ(listener.notified, std::vector<int>(genomes.size(), session->size() > 1 ? 1 : 0));
 }
 
 TEST(Farm, measures_every_distance_as_one_rank_does) {
@@ -98,7 +80,7 @@ TEST(Farm, measures_every_distance_as_one_rank_does) {
     auto const genomes = founders(120, 0);
     std::vector<Genome const*> pointers;
     for (Genome const& genome : genomes) pointers.push_back(&genome);
-    auto const evaluations = pretend(pointers);
+    auto const evaluations = evaluate_batch(context(), pointers);
     std::vector<Descriptors const*> pool;
     for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
     for (DistanceKind kind :
@@ -106,7 +88,7 @@ TEST(Farm, measures_every_distance_as_one_rank_does) {
         for (int known : {0, 1, 60, 119, 120}) {
             DistanceMatrix expected{120}, matrix{120};
             measure_rows(kind, pool, known, 120, expected);
-            served.farm.measure(kind, pool, known, matrix);
+            served.farm.distances().measure(kind, pool, known, matrix);
             EXPECT_EQ(matrix, expected) << name(kind) << " " << known;
         }
 }
@@ -116,13 +98,15 @@ TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
     config.population = 150;   // so many that some distances are measured while others are under way
     config.founders = 200;
     auto const go_on = [](GenerationReport const&) { return true; };
-    PretendedEvaluator alone{steps};
+    SerialEvaluator alone{context()};
     auto const expected = evolve(config, 3, alone, {}, go_on).signature.value();
     for (char const* delay : {"0", "3"}) {
         ::setenv("LORE_TEST_DELAY", delay, 1);
         call_workers(*delay);
         Served served;
-        EXPECT_EQ(evolve(config, 3, served.farm, {}, go_on).signature.value(), expected) << delay;
+        EXPECT_EQ(evolve(config, 3, served.farm.evaluator(), served.farm.distances(), {}, go_on).signature.value(),
+                  expected)
+            << delay;
     }
     ::unsetenv("LORE_TEST_DELAY");
     call_workers('0');
@@ -133,7 +117,7 @@ TEST(Farm, accounts_for_the_time_of_every_rank) {
     auto const genomes = founders(64, 0);
     std::vector<Genome const*> pointers;
     for (Genome const& genome : genomes) pointers.push_back(&genome);
-    served.farm.evaluate(pointers);
+    served.farm.evaluator().evaluate(pointers);
     auto const times = served.farm.stop();
     ASSERT_EQ(times.size(), static_cast<std::size_t>(session->size()));
     for (RankTimes const& rank : times) EXPECT_GT(rank.evaluation, 0);
@@ -158,7 +142,7 @@ int main(int argc, char** argv) {
     }
     while (true) {
         switch (std::to_integer<char>(session->world().broadcast({}).at(0))) {
-        case 's': serve(session->world(), pretend_stream); break;
+        case 's': serve(session->world(), context()); break;
         case 'g': session->world().gather("rank " + std::to_string(session->rank())); break;
         case '0': ::unsetenv("LORE_TEST_DELAY"); break;
         case '3': ::setenv("LORE_TEST_DELAY", "3", 1); break;

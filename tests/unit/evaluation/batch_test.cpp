@@ -1,4 +1,4 @@
-#include <lore/evaluation/evaluator.h>
+#include <lore/evaluation/evaluation_queue.h>
 
 #include <lore/core/isa.h>
 #include <lore/knowledge/builder.h>
@@ -196,11 +196,11 @@ TEST_P(EvaluateBatch, serves_every_batch_size) {
     use_isa(before);
 }
 
-TEST_P(EvaluateBatch, gives_the_same_from_a_feed_that_stutters) {
+TEST_P(EvaluateBatch, gives_the_same_from_a_queue_that_stutters) {
     /// Has nothing to hand out most of the time, so that lanes idle between episodes.
-    class StutteringFeed : public EvaluationFeed {
+    class StutteringQueue : public EvaluationQueue {
     public:
-        explicit StutteringFeed(std::vector<Genome> const& genomes) : results(genomes.size()), genomes_(genomes) {}
+        explicit StutteringQueue(std::vector<Genome> const& genomes) : results(genomes.size()), genomes_(genomes) {}
         std::optional<Item> next() override {
             if (next_ == genomes_.size() || (under_way_ > 0 && rng_.below(20) != 0)) return std::nullopt;
             ++under_way_;
@@ -223,10 +223,10 @@ TEST_P(EvaluateBatch, gives_the_same_from_a_feed_that_stutters) {
     auto const genomes = population(40, 5);
     for (Isa isa : usable_isas()) {
         use_isa(isa);
-        StutteringFeed feed{genomes};
-        evaluate_stream(context, feed);
+        StutteringQueue queue{genomes};
+        evaluate_queue(context, queue);
         for (std::size_t i = 0; i < genomes.size(); ++i)
-            EXPECT_EQ(feed.results[i], evaluate_plainly(context, genomes[i])) << i << " " << name(isa);
+            EXPECT_EQ(queue.results[i], evaluate_plainly(context, genomes[i])) << i << " " << name(isa);
     }
 }
 

@@ -24,7 +24,7 @@ EvolutionConfig small_config() {
 std::string signature_of(EvolutionConfig const& config, std::uint64_t seed,
                          SyntheticEvaluator::Order order = SyntheticEvaluator::Order::forward) {
     SyntheticEvaluator evaluator{order};
-    return evolve(config, seed, evaluator, {}, {}).signature.text();
+    return evolve(config, seed, evaluator, evaluator, {}, {}).signature.text();
 }
 
 double mean_birth(Population const& population) {
@@ -171,7 +171,7 @@ TEST(Evolve, measures_only_pairs_with_a_child_unless_the_distance_has_changed) {
     EvolutionConfig config = small_config();
     SyntheticEvaluator evaluator;
     std::vector<DistanceKind> kinds;
-    evolve(config, 2, evaluator, {}, [&](GenerationReport const& report) {
+    evolve(config, 2, evaluator, evaluator, {}, [&](GenerationReport const& report) {
         kinds.push_back(report.distance);
         // Kept distances are those that a measurement of the survivors would give.
         Population const& population = report.state->population;

@@ -80,7 +80,8 @@ TEST(ShapingUse, ties_decides_among_equals_and_no_more) {
     /// All are equal but for their shaping value.
     class EqualButShaped : public ConstantEvaluator {
     public:
-        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* audience) override {
+        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
+                                         CompletionListener* audience) override {
             auto evaluations = ConstantEvaluator::evaluate(genomes, audience);
             for (std::size_t i = 0; i < genomes.size(); ++i) evaluations[i].shaping = genomes[i]->biases[0];
             return evaluations;

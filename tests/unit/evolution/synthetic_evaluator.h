@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/behavior/distance_measurer.h>
 #include <lore/core/random.h>
 #include <lore/evaluation/evaluator.h>
 
@@ -13,13 +14,14 @@ namespace lore {
 
 /// Judges a genome by its genes alone, in no time: balls for some high biases, behavior from the weights. Works
 /// through the batch in whatever order it is told to, as ranks would; unless that is the order of the request, it
-/// announces all but the last quarter.
-class SyntheticEvaluator : public Evaluator {
+/// notifies of all but the last quarter. Measures, too, in rows whose order depends on that order.
+class SyntheticEvaluator : public Evaluator, public DistanceMeasurer {
 public:
     enum class Order { forward, backward, shuffled };
     explicit SyntheticEvaluator(Order order = Order::forward) : order_(order) {}
 
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* audience = nullptr) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
+                                     CompletionListener* listener = nullptr) override {
         std::vector<std::size_t> order(genomes.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         if (order_ == Order::backward) std::reverse(order.begin(), order.end());
@@ -28,9 +30,9 @@ public:
         std::size_t done = 0;
         for (std::size_t const k : order) {
             evaluations[k] = judge(*genomes[k]);
-            if (audience == nullptr || order_ == Order::forward || ++done > genomes.size() * 3 / 4) continue;
-            audience->arrive(static_cast<int>(k), evaluations[k]);
-            if (done % 25 == 0) audience->lull();
+            if (listener == nullptr || order_ == Order::forward || ++done > genomes.size() * 3 / 4) continue;
+            listener->completed(static_cast<int>(k), evaluations[k]);
+            if (done % 25 == 0) listener->idle();
         }
         evaluated_ += static_cast<int>(genomes.size());
         return evaluations;
@@ -77,7 +79,7 @@ private:
 /// Nobody differs from anybody.
 class ConstantEvaluator : public Evaluator {
 public:
-    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, Audience* = nullptr) override {
+    std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, CompletionListener* = nullptr) override {
         Evaluation e;
         e.descriptors.balls = {{0, 0}};
         return std::vector<Evaluation>(genomes.size(), e);

@@ -11,7 +11,7 @@ void install_stop_handlers();
 /// On the ranks that take orders: the same signals do nothing, because rank 0 decides when all stop.
 void ignore_stop_signals();
 
-/// "signal 10 (User defined signal 1)", or "" while nobody has asked.
+/// "signal 10 (User defined signal 1)", or "" if none has arrived.
 std::string stop_request();
 
 }   // namespace lore
