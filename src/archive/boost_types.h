@@ -5,6 +5,10 @@
 // Arrays travel as blobs. A count is checked against its limit and against the bytes that are left before memory is
 // taken for it, since Boost itself believes what it reads.
 
+#include "byte_stream.h"
+#include "edge_bytes.h"
+#include "field_limits.h"
+
 #include <lore/archive/container.h>
 #include <lore/core/error.h>
 #include <lore/evolution/individual.h>
@@ -124,38 +128,40 @@ inline std::size_t get_count(InArchive& archive, std::size_t least_bytes) {
     return static_cast<std::size_t>(count);
 }
 
-/// Edges without the padding that struct Edge has in memory.
-struct PackedEdge {
-    NeuronIndex source, target;
-    unsigned char weight[4];
-};
-static_assert(sizeof(PackedEdge) == 6);
+/// The fields of Descriptors: vectors as blobs, all else as it lies in memory.
+template <class T>
+void put_field(boost::archive::binary_oarchive& archive, std::vector<T> const& items) {
+    put_blob(archive, items);
+}
+template <class T>
+void get_field(InArchive& archive, std::vector<T>& items) {
+    get_blob(archive, items, most_items<T>);
+}
+template <Flat T>
+void put_field(boost::archive::binary_oarchive& archive, T const& value) {
+    archive.save_binary(&value, sizeof value);
+}
+template <Flat T>
+void get_field(InArchive& archive, T& value) {
+    archive.load_binary(&value, sizeof value);
+}
 
 }   // namespace lore
 
 namespace boost::serialization {
 
 inline void save(boost::archive::binary_oarchive& archive, lore::Genome const& genome, unsigned) {
-    std::vector<lore::PackedEdge> edges(genome.edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        edges[i].source = genome.edges[i].source;
-        edges[i].target = genome.edges[i].target;
-        std::memcpy(edges[i].weight, &genome.edges[i].weight, 4);
-    }
+    std::vector<lore::EdgeBytes> const edges(genome.edges.begin(), genome.edges.end());
     lore::put_blob(archive, edges);
     lore::put_blob(archive, genome.biases);
 }
 inline void load(boost::archive::binary_iarchive& any, lore::Genome& genome, unsigned) {
     auto& archive = lore::InArchive::from(any);
-    std::vector<lore::PackedEdge> edges;
+    std::vector<lore::EdgeBytes> edges;
     lore::get_blob(archive, edges, lore::most_edges);
     lore::get_blob(archive, genome.biases, lore::effector_count + lore::most_hidden);
     genome.edges.resize(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        genome.edges[i].source = edges[i].source;
-        genome.edges[i].target = edges[i].target;
-        std::memcpy(&genome.edges[i].weight, edges[i].weight, 4);
-    }
+    for (std::size_t i = 0; i < edges.size(); ++i) genome.edges[i] = edges[i].edge();
     if (std::string const why = lore::why_invalid(genome); !why.empty()) archive.fail("an invalid genome: " + why);
 }
 
@@ -165,17 +171,11 @@ void serialize(Archive& archive, lore::IndividualId& id, unsigned) {
 }
 
 inline void save(boost::archive::binary_oarchive& archive, lore::Descriptors const& descriptors, unsigned) {
-    lore::put_blob(archive, descriptors.balls);
-    lore::put_blob(archive, descriptors.bits);
-    lore::put_blob(archive, descriptors.path);
-    archive.save_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
+    lore::for_each_field(descriptors, [&](auto const& field) { lore::put_field(archive, field); });
 }
 inline void load(boost::archive::binary_iarchive& any, lore::Descriptors& descriptors, unsigned) {
     auto& archive = lore::InArchive::from(any);
-    lore::get_blob(archive, descriptors.balls, lore::most_balls);
-    lore::get_blob(archive, descriptors.bits, SIZE_MAX);
-    lore::get_blob(archive, descriptors.path, SIZE_MAX);
-    archive.load_binary(descriptors.entropies.data(), sizeof descriptors.entropies);
+    lore::for_each_field(descriptors, [&](auto& field) { lore::get_field(archive, field); });
 }
 
 }   // namespace boost::serialization

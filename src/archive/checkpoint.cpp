@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <filesystem>
+#include <ranges>
 
 namespace lore {
 
@@ -14,14 +16,20 @@ namespace {
 
 constexpr std::size_t least_bytes_a_member = 48;
 
-/// What measuring distances relies on.
+/// What measuring distances relies on, by the kind of value.
+bool is_possible(Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }
+bool is_possible(Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }
+bool is_possible(std::uint16_t word) { return word >> channel_count == 0; }
+bool is_possible(std::floating_point auto value) { return std::isfinite(value); }
+bool is_possible(std::integral auto) { return true; }
+bool is_possible(std::ranges::range auto const& items) {
+    return std::ranges::all_of(items, [](auto const& item) { return is_possible(item); });
+}
+
 bool is_possible(Descriptors const& descriptors) {
-    return std::all_of(descriptors.path.begin(), descriptors.path.end(),
-                       [](Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }) &&
-           std::all_of(descriptors.balls.begin(), descriptors.balls.end(),
-                       [](Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }) &&
-           std::all_of(descriptors.entropies.begin(), descriptors.entropies.end(),
-                       [](double entropy) { return std::isfinite(entropy); });
+    bool possible = true;
+    for_each_field(descriptors, [&](auto const& field) { possible = possible && is_possible(field); });
+    return possible;
 }
 
 /// All but the distances among the members: evolution measures them anew, which costs less than keeping them here.

@@ -1,5 +1,7 @@
 #include "genome_difference.h"
 
+#include "edge_bytes.h"
+
 namespace lore {
 
 namespace {
@@ -8,19 +10,8 @@ enum Form : std::uint8_t { written_out = 0, changed = 1 };
 
 bool same_ends(Edge const& a, Edge const& b) { return a.source == b.source && a.target == b.target; }
 
-void put_edge(ByteWriter& out, Edge const& edge) {
-    out.put(edge.source);
-    out.put(edge.target);
-    out.put(edge.weight);
-}
-
-Edge get_edge(ByteReader& in) {
-    Edge edge;
-    edge.source = in.get<NeuronIndex>();
-    edge.target = in.get<NeuronIndex>();
-    edge.weight = in.get<float>();
-    return edge;
-}
+void put_edge(ByteWriter& out, Edge const& edge) { out.put(EdgeBytes{edge}); }
+Edge get_edge(ByteReader& in) { return in.get<EdgeBytes>().edge(); }
 
 /// Places in the parent's list: which edges go, which change, and how many of the child's are new at its end.
 struct Alignment {
@@ -131,7 +122,7 @@ void put_difference(ByteWriter& out, Genome const& parent, Genome const& child) 
     put_changes(changes, parent, child);
     Bytes const bytes = changes.take();
     if (ByteReader in{bytes, "a difference"}; get_changes(in, parent) == child) {
-        std::size_t const whole = child.edges.size() * sizeof(std::uint8_t) * 6 + child.biases.size() * sizeof(float);
+        std::size_t const whole = child.edges.size() * sizeof(EdgeBytes) + child.biases.size() * sizeof(float);
         if (bytes.size() < whole) {
             out.put(changed);
             out.put_all(std::span{bytes});

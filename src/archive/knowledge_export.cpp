@@ -14,7 +14,7 @@ namespace lore {
 
 namespace {
 
-/// The 15 channels of one step, in their order.
+/// The channels of one step, in their order.
 std::array<float, channel_count> channels_at(Window const& window, std::size_t step) {
     std::array<float, channel_count> channels{};
     for (std::size_t i = 0; i < binary_channels.size(); ++i)

@@ -1,6 +1,8 @@
 #include <lore/archive/messages.h>
 
 #include "byte_stream.h"
+#include "edge_bytes.h"
+#include "field_limits.h"
 
 #include <cstring>
 #include <limits>
@@ -24,7 +26,7 @@ std::size_t end_of_run(std::span<std::uint16_t const> words, std::size_t first) 
 }
 
 /// Words of consecutive steps are mostly equal: as runs they take a tenth. Written out where that is shorter.
-void put_words(ByteWriter& out, std::vector<std::uint16_t> const& words) {
+void put_field(ByteWriter& out, std::vector<std::uint16_t> const& words) {
     ByteWriter runs;
     for (std::size_t i = 0; i < words.size();) {
         std::size_t const end = end_of_run(words, i);
@@ -39,46 +41,53 @@ void put_words(ByteWriter& out, std::vector<std::uint16_t> const& words) {
     else out.put_all(std::span{words});
 }
 
-std::vector<std::uint16_t> get_words(ByteReader& in) {
+void get_field(ByteReader& in, std::vector<std::uint16_t>& words) {
     bool const as_runs = in.get<std::uint8_t>() != 0;
     std::size_t const count = in.get_count(longest_evaluation);
-    if (!as_runs) return in.get_all<std::uint16_t>(count);
-    std::vector<std::uint16_t> words;
+    if (!as_runs) {
+        words = in.get_all<std::uint16_t>(count);
+        return;
+    }
     words.reserve(count);
     while (words.size() < count) {
         std::size_t const run = in.get_count(count - words.size());
         if (run == 0) in.fail("a run of no length");
         words.insert(words.end(), run, in.get<std::uint16_t>());
     }
-    return words;
+}
+
+/// Other fields of Descriptors: vectors with their count before them, all else as it lies in memory.
+template <class T>
+void put_field(ByteWriter& out, std::vector<T> const& items) {
+    out.put_varint(items.size());
+    out.put_all(std::span{items});
+}
+template <class T>
+void get_field(ByteReader& in, std::vector<T>& items) {
+    items = in.get_all<T>(in.get_count(most_items<T>));
+}
+template <Flat T>
+void put_field(ByteWriter& out, T const& value) {
+    out.put(value);
+}
+template <Flat T>
+void get_field(ByteReader& in, T& value) {
+    value = in.get<T>();
 }
 
 void put_evaluation(ByteWriter& out, Evaluation const& evaluation) {
-    Descriptors const& descriptors = evaluation.descriptors;
     out.put(std::int32_t{evaluation.balls});
     out.put(evaluation.shaping);
-    out.put_varint(evaluation.shown.size());
-    out.put_all(std::span{evaluation.shown});
-    out.put_varint(descriptors.balls.size());
-    out.put_varint(descriptors.path.size());
-    out.put_all(std::span{descriptors.balls});
-    put_words(out, descriptors.bits);
-    out.put_all(std::span{descriptors.path});
-    out.put(descriptors.entropies);
+    put_field(out, evaluation.shown);
+    for_each_field(evaluation.descriptors, [&](auto const& field) { put_field(out, field); });
 }
 
-Evaluation get_evaluation(ByteReader& in, std::size_t longest_path) {
+Evaluation get_evaluation(ByteReader& in) {
     Evaluation evaluation;
-    Descriptors& descriptors = evaluation.descriptors;
     evaluation.balls = in.get<std::int32_t>();
     evaluation.shaping = in.get<double>();
-    evaluation.shown = in.get_all<std::uint32_t>(in.get_count(longest_path));
-    std::size_t const balls = in.get_count(most_balls);
-    std::size_t const path = in.get_count(longest_path);
-    descriptors.balls = in.get_all<Point>(balls);
-    descriptors.bits = get_words(in);
-    descriptors.path = in.get_all<Tile>(path);
-    descriptors.entropies = in.get<std::array<double, channel_count>>();
+    get_field(in, evaluation.shown);
+    for_each_field(evaluation.descriptors, [&](auto& field) { get_field(in, field); });
     return evaluation;
 }
 
@@ -90,11 +99,7 @@ Bytes pack_genomes(std::span<Genome const* const> genomes) {
     for (Genome const* genome : genomes) {
         out.put_varint(genome->edges.size());
         out.put_varint(genome->biases.size());
-        for (Edge const& edge : genome->edges) {
-            out.put(edge.source);
-            out.put(edge.target);
-            out.put(edge.weight);
-        }
+        for (Edge const& edge : genome->edges) out.put(EdgeBytes{edge});
         out.put_all(std::span{genome->biases});
     }
     return out.take();
@@ -106,11 +111,7 @@ std::vector<Genome> unpack_genomes(std::span<std::byte const> bytes) {
     for (Genome& genome : genomes) {
         genome.edges.resize(in.get_count(most_edges));
         std::size_t const biases = in.get_count(effector_count + most_hidden);
-        for (Edge& edge : genome.edges) {
-            edge.source = in.get<NeuronIndex>();
-            edge.target = in.get<NeuronIndex>();
-            edge.weight = in.get<float>();
-        }
+        for (Edge& edge : genome.edges) edge = in.get<EdgeBytes>().edge();
         genome.biases = in.get_all<float>(biases);
     }
     in.expect_end();
@@ -132,7 +133,7 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     std::vector<Delivery> deliveries(in.get_count(std::min(most_batch, bytes.size())));
     for (auto& [ticket, evaluation] : deliveries) {
         ticket = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
-        evaluation = get_evaluation(in, bytes.size());
+        evaluation = get_evaluation(in);
     }
     in.expect_end();
     return deliveries;

@@ -131,12 +131,19 @@ constexpr float whole_turn = 6.2831855f;
 constexpr float largest_sensor = 1e6f;   // other simulators' range sensors leave [0, 1] by a little
 constexpr int largest_count = 1 << 30;
 
+std::array<std::size_t, effector_count> effector_columns(CsvReader const& csv) {
+    std::array<std::size_t, effector_count> columns;
+    for (int i = 0; i < effector_count; ++i) columns[static_cast<std::size_t>(i)] = csv.column(fmt::format("a{}", i));
+    return columns;
+}
+
 }   // namespace
 
 std::string trace_csv(std::vector<StepRecord> const& rows) {
     std::string text = "step,x,y,theta";
     for (int i = 0; i < sensor_count; ++i) text += fmt::format(",in{}", i);
-    text += ",a0,a1,a2,carrying,door_open,balls_mask,collected,switch_on,switch_timer,x_next,y_next,theta_next\n";
+    for (int i = 0; i < effector_count; ++i) text += fmt::format(",a{}", i);
+    text += ",carrying,door_open,balls_mask,collected,switch_on,switch_timer,x_next,y_next,theta_next\n";
     auto const out = std::back_inserter(text);
     for (StepRecord const& row : rows) {
         fmt::format_to(out, "{},{},{},{}", row.step, row.pose.x, row.pose.y, row.pose.theta);
@@ -158,7 +165,7 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
                       theta_next = csv.column("theta_next");
     std::array<std::size_t, sensor_count> sensors;
     for (int i = 0; i < sensor_count; ++i) sensors[static_cast<std::size_t>(i)] = csv.column(fmt::format("in{}", i));
-    std::array<std::size_t, effector_count> const effectors{csv.column("a0"), csv.column("a1"), csv.column("a2")};
+    auto const effectors = effector_columns(csv);
     int const all_balls = (1 << arena.task.ball_positions.size()) - 1;
 
     std::vector<StepRecord> rows;
@@ -186,7 +193,7 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
 
 std::vector<Effectors> read_actions_csv(std::string const& path) {
     CsvReader csv{path};
-    std::array<std::size_t, effector_count> const columns{csv.column("a0"), csv.column("a1"), csv.column("a2")};
+    auto const columns = effector_columns(csv);
     std::vector<Effectors> actions;
     while (csv.next_row()) {
         Effectors& action = actions.emplace_back();

@@ -76,18 +76,12 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     left &= visible;
     auto const on = [](bool condition) { return condition ? 1.0f : 0.0f; };
     std::uint32_t const balls = ~(g.basket_mask | g.switch_mask);
-    return {range(look.right),
-            range(look.left),
-            range(look.ahead),
-            on((right & balls) != 0),
-            on((left & balls) != 0),
-            on((right & g.basket_mask) != 0),
-            on((left & g.basket_mask) != 0),
-            on((right & g.switch_mask) != 0),
-            on((left & g.switch_mask) != 0),
-            on(robot.bumper_right),
-            on(robot.bumper_left),
-            on(world.carrying())};
+    auto const sensors = std::to_array<float>(
+        {range(look.right), range(look.left), range(look.ahead), on((right & balls) != 0), on((left & balls) != 0),
+         on((right & g.basket_mask) != 0), on((left & g.basket_mask) != 0), on((right & g.switch_mask) != 0),
+         on((left & g.switch_mask) != 0), on(robot.bumper_right), on(robot.bumper_left), on(world.carrying())});
+    static_assert(sensors.size() == sensor_count, "a value for every sensor, in the order of Channel");
+    return sensors;
 }
 
 void act(Arena const& arena, Pose const& pose, Effectors const& effectors, WorldState& world) {
@@ -95,7 +89,7 @@ void act(Arena const& arena, Pose const& pose, Effectors const& effectors, World
         if (world.switch_timer > 0) --world.switch_timer;
         else world.switch_lit = true;
     }
-    bool const collecting = effectors[2] >= 0.5f;
+    bool const collecting = effectors[effector_place(Channel::collect)] >= 0.5f;
     if (!collecting && world.carrying()) release(arena, pose, world);
     if (!collecting || world.carrying()) return;
     if (int const ball = ball_within_reach(arena, pose, world); ball >= 0) {
@@ -108,8 +102,9 @@ void act(Arena const& arena, Pose const& pose, Effectors const& effectors, World
 
 void move(Arena const& arena, Effectors const& effectors, WorldState const& world, RobotState& robot) {
     Geometry const& g = *arena.geometry;
-    mechanics::Drive<float> const drive =
-        mechanics::drive(effectors[0], effectors[1], arena.robot.max_speed, g.inverse_wheel_distance);
+    mechanics::Drive<float> const drive = mechanics::drive(effectors[effector_place(Channel::left_wheel)],
+                                                           effectors[effector_place(Channel::right_wheel)],
+                                                           arena.robot.max_speed, g.inverse_wheel_distance);
     mechanics::Vector<float> const way = mechanics::arc(drive, math::sincos(robot.pose.theta));
     float const x = robot.pose.x + way.x, y = robot.pose.y + way.y;
     robot.pose.theta = mechanics::wrap(robot.pose.theta + drive.turn);

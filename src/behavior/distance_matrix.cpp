@@ -44,7 +44,14 @@ void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, i
     case DistanceKind::hamming: return measure_hamming_rows(pool, first, last, matrix);
     case DistanceKind::trajectory: return measure_trajectory_rows(pool, first, last, matrix);
     case DistanceKind::entropy: return measure_entropy_rows(pool, first, last, matrix);
+    default: return measure_rows_plainly(kind, pool, first, last, matrix);   // has no fast twin yet
     }
+}
+
+void measure_rows_plainly(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last,
+                          DistanceMatrix& matrix) {
+    for (int i = first; i < last; ++i)
+        for (int j = 0; j < i; ++j) matrix.set(i, j, distance(kind, *pool[i], *pool[j]));
 }
 
 }   // namespace lore

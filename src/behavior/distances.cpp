@@ -13,23 +13,11 @@ namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, distance_kinds> kind_names{"adhoc", "hamming", "trajectory", "entropy"};
-
 constexpr int insertion_cost = tiles_per_side;   // in twelfths of the paper's unit
 constexpr int deletion_cost = tiles_per_side;
 int substitution_cost(Tile a, Tile b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
 }   // namespace
-
-std::string_view name(DistanceKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
-
-DistanceKind distance_kind(std::string_view wanted) {
-    auto const found = std::find(kind_names.begin(), kind_names.end(), wanted);
-    if (found == kind_names.end())
-        throw UsageError("'" + std::string{wanted} + "' is not a behavioral distance",
-                         "known are adhoc, hamming, trajectory, entropy", "Correct the name.");
-    return static_cast<DistanceKind>(found - kind_names.begin());
-}
 
 double adhoc_distance(Descriptors const& a, Descriptors const& b) {
     assert(a.balls.size() == b.balls.size());
@@ -83,15 +71,53 @@ double entropy_distance(Descriptors const& a, Descriptors const& b) {
     return std::sqrt(sum);
 }
 
+namespace {
+
+struct Definition {
+    DistanceKind kind;
+    std::string_view name;
+    double (*distance)(Descriptors const&, Descriptors const&);
+};
+
+/// All distances, in the order of DistanceKind.
+constexpr auto definitions = std::to_array<Definition>({
+    {DistanceKind::adhoc, "adhoc", adhoc_distance},
+    {DistanceKind::hamming, "hamming", hamming_distance},
+    {DistanceKind::trajectory, "trajectory", trajectory_distance},
+    {DistanceKind::entropy, "entropy", entropy_distance},
+});
+
+consteval bool are_in_order() {
+    for (std::size_t k = 0; k < definitions.size(); ++k)
+        if (definitions[k].kind != static_cast<DistanceKind>(k)) return false;
+    return definitions.size() == distance_kinds;
+}
+static_assert(are_in_order(), "definitions has every DistanceKind once, in order, and distance_kinds counts them");
+
+Definition const& definition_of(DistanceKind kind) {
+    assert(static_cast<int>(kind) < distance_kinds);
+    return definitions[static_cast<std::size_t>(kind)];
+}
+
+}   // namespace
+
+std::string_view name(DistanceKind kind) { return definition_of(kind).name; }
+
+std::string distance_names() {
+    std::string names;
+    for (Definition const& definition : definitions) names.append(names.empty() ? "" : ", ").append(definition.name);
+    return names;
+}
+
+DistanceKind distance_kind(std::string_view wanted) {
+    for (Definition const& definition : definitions)
+        if (definition.name == wanted) return definition.kind;
+    throw UsageError("'" + std::string{wanted} + "' is not a behavioral distance", "known are " + distance_names(),
+                     "Correct the name.");
+}
+
 double distance(DistanceKind kind, Descriptors const& a, Descriptors const& b) {
-    switch (kind) {
-    case DistanceKind::adhoc: return adhoc_distance(a, b);
-    case DistanceKind::hamming: return hamming_distance(a, b);
-    case DistanceKind::trajectory: return trajectory_distance(a, b);
-    case DistanceKind::entropy: return entropy_distance(a, b);
-    }
-    assert(false);
-    return 0;
+    return definition_of(kind).distance(a, b);
 }
 
 }   // namespace lore

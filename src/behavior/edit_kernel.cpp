@@ -163,7 +163,6 @@ void full_costs(PathGroup const& group, std::uint8_t const* path, int length, in
 
 }   // namespace
 
-EditKernel edit();
 EditKernel edit() { return {width, prepare, diagonal_costs, banded_costs, full_costs}; }
 
 }   // namespace lore::LORE_ISA_NAMESPACE

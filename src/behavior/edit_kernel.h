@@ -42,6 +42,6 @@ struct EditKernel {
                        std::int32_t* costs);
 };
 
-EditKernel edit_kernel(Isa);
+LORE_KERNEL(EditKernel edit())
 
 }   // namespace lore

@@ -1,33 +1,10 @@
 #include "euclidean_kernel.h"
 #include "fast_distances.h"
 
-#include <lore/core/isa.h>
-
 #include <cassert>
 #include <cmath>
 
 namespace lore {
-
-namespace isa_baseline {
-EuclideanKernel euclidean();
-}
-#if LORE_ISA_COUNT > 1
-namespace isa_v3 {
-EuclideanKernel euclidean();
-}
-namespace isa_v4 {
-EuclideanKernel euclidean();
-}
-#endif
-
-EuclideanKernel euclidean_kernel(Isa isa) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::euclidean();
-    if (isa == Isa::v3) return isa_v3::euclidean();
-#endif
-    static_cast<void>(isa);
-    return isa_baseline::euclidean();
-}
 
 namespace {
 
@@ -40,7 +17,7 @@ public:
     double& coordinate(int point, int c) { return columns_[static_cast<std::size_t>(c) * count_ + point]; }
 
     void measure(int first, DistanceMatrix& matrix) {
-        EuclideanKernel const kernel = euclidean_kernel(active_isa());
+        EuclideanKernel const kernel = kernel_for(active_isa(), LORE_KERNELS(euclidean))();
         std::vector<double> point(static_cast<std::size_t>(coordinates_)), squares(static_cast<std::size_t>(count_));
         for (int i = first; i < count_; ++i) {
             for (int c = 0; c < coordinates_; ++c) point[c] = coordinate(i, c);

@@ -29,7 +29,6 @@ void squares(double const* point, double const* others, int coordinates, int str
 
 }   // namespace
 
-EuclideanKernel euclidean();
 EuclideanKernel euclidean() { return {squares}; }
 
 }   // namespace lore::LORE_ISA_NAMESPACE

@@ -11,6 +11,6 @@ struct EuclideanKernel {
     void (*squares)(double const* point, double const* others, int coordinates, int stride, int count, double* squares);
 };
 
-EuclideanKernel euclidean_kernel(Isa);
+LORE_KERNEL(EuclideanKernel euclidean())
 
 }   // namespace lore

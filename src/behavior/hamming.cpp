@@ -6,27 +6,6 @@
 
 namespace lore {
 
-namespace isa_baseline {
-HammingKernel hamming(bool by_instruction);
-}
-#if LORE_ISA_COUNT > 1
-namespace isa_v3 {
-HammingKernel hamming(bool by_instruction);
-}
-namespace isa_v4 {
-HammingKernel hamming(bool by_instruction);
-}
-#endif
-
-HammingKernel hamming_kernel(Isa isa, bool by_instruction) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::hamming(by_instruction);
-    if (isa == Isa::v3) return isa_v3::hamming(by_instruction);
-#endif
-    static_cast<void>(isa);
-    return isa_baseline::hamming(by_instruction);
-}
-
 namespace {
 
 using Plane = std::array<std::uint64_t, words_per_plane>;
@@ -78,7 +57,8 @@ private:
 class DifferenceCounts {
 public:
     DifferenceCounts(std::span<Descriptors const* const> pool, int first, std::size_t longest)
-        : pool_(pool), first_(static_cast<std::size_t>(first)), kernel_(hamming_kernel(active_isa())),
+        : pool_(pool), first_(static_cast<std::size_t>(first)),
+          kernel_(kernel_for(active_isa(), LORE_KERNELS(hamming))(true)),
           planes_(pool.size() * bits_per_step * sizeof(Plane) / sizeof(CacheLine)), classes_(pool.size()),
           sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
         for (std::size_t start = 0; start < longest; start += steps_per_plane) count_stretch(start);

@@ -132,7 +132,6 @@ void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
 
 }   // namespace
 
-HammingKernel hamming(bool by_instruction);
 HammingKernel hamming(bool by_instruction) {
 #if defined(__AVX512F__) && LORE_LANES == 16
     if (by_instruction && __builtin_cpu_supports("avx512vpopcntdq"))

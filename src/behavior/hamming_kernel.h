@@ -26,6 +26,6 @@ struct HammingKernel {
 };
 
 /// `by_instruction`: counts with AVX-512's instruction for it, where the processor has it.
-HammingKernel hamming_kernel(Isa, bool by_instruction = true);
+LORE_KERNEL(HammingKernel hamming(bool by_instruction))
 
 }   // namespace lore

@@ -7,27 +7,6 @@
 
 namespace lore {
 
-namespace isa_baseline {
-EditKernel edit();
-}
-#if LORE_ISA_COUNT > 1
-namespace isa_v3 {
-EditKernel edit();
-}
-namespace isa_v4 {
-EditKernel edit();
-}
-#endif
-
-EditKernel edit_kernel(Isa isa) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::edit();
-    if (isa == Isa::v3) return isa_v3::edit();
-#endif
-    static_cast<void>(isa);
-    return isa_baseline::edit();
-}
-
 namespace {
 
 using Path = std::vector<Tile>;
@@ -76,9 +55,9 @@ DistinctPaths distinct_paths(std::span<Descriptors const* const> pool, int first
 class GroupMeasure {
 public:
     explicit GroupMeasure(std::size_t longest)
-        : kernel_(edit_kernel(active_isa())), tiles_(longest), substitution_(tile_count * (longest + 1)),
-          across_(longest + 1), diagonal_(longest + 1), follows_(new bool[tile_count * tile_count]),
-          costs_(kernel_.lanes), lengths_(kernel_.lanes) {}
+        : kernel_(kernel_for(active_isa(), LORE_KERNELS(edit))()), tiles_(longest),
+          substitution_(tile_count * (longest + 1)), across_(longest + 1), diagonal_(longest + 1),
+          follows_(new bool[tile_count * tile_count]), costs_(kernel_.lanes), lengths_(kernel_.lanes) {}
 
     int lanes() const { return kernel_.lanes; }
 

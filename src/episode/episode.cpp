@@ -26,13 +26,15 @@ WorldState simulate(Arena const& arena, Network const& network, EpisodeConfig co
     return world;
 }
 
+float channel_value(Sensors const& sensors, Effectors const& effectors, int channel) {
+    return channel < sensor_count ? sensors[static_cast<std::size_t>(channel)]
+                                  : effectors[static_cast<std::size_t>(channel - sensor_count)];
+}
+
 }   // namespace
 
 std::uint16_t trace_bits(Sensors const& sensors, Effectors const& effectors) {
-    auto const channel = [&](int c) {
-        return c < sensor_count ? sensors[static_cast<std::size_t>(c)]
-                                : effectors[static_cast<std::size_t>(c - sensor_count)];
-    };
+    auto const channel = [&](int c) { return channel_value(sensors, effectors, c); };
     unsigned bits = 0, bit = 0;
     for (int const c : binary_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
     for (int const c : continuous_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
@@ -53,8 +55,7 @@ Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig c
     trace.final_world = simulate(arena, network, config, [&](StepView const& view) {
         trace.bits.push_back(trace_bits(view.sensors, view.effectors));
         trace.poses.push_back(view.pose);
-        trace.values.insert(trace.values.end(), view.sensors.begin(), view.sensors.begin() + 3);
-        trace.values.insert(trace.values.end(), view.effectors.begin(), view.effectors.end());
+        for (int const c : continuous_channels) trace.values.push_back(channel_value(view.sensors, view.effectors, c));
     });
     return trace;
 }

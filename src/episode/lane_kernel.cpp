@@ -15,7 +15,18 @@ using F = Lanes<float, width>;
 using I = Lanes<std::int32_t, width>;
 using Words = Lanes<std::uint16_t, width>;
 
-constexpr int inputs = 12, outputs = 3;
+/// The sensors of each kind, as numbers of the networks' inputs.
+struct SensorNumbers {
+    int continuous[continuous_sensor_count], binary[binary_count];
+};
+consteval SensorNumbers sensor_numbers() {
+    SensorNumbers numbers{};
+    for (int c = 0; c < continuous_sensor_count; ++c) numbers.continuous[c] = continuous_channels[c];
+    for (int b = 0; b < binary_count; ++b) numbers.binary[b] = binary_channels[b];
+    return numbers;
+}
+constexpr SensorNumbers sensors = sensor_numbers();
+constexpr int rays = 3;
 
 LORE_INLINE F ones_where(I const& mask) { return lanes::select(mask, lanes::all_of<F>(1.0f), F{}); }
 
@@ -24,15 +35,15 @@ LORE_INLINE F ones_where(I const& mask) { return lanes::select(mask, lanes::all_
 /// positive, by max for "and", by min for "or". Distances are kept negative, which saves a sign.
 template <bool along_x>
 LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const& across, F const& along, I const& shut,
-                          mechanics::Ray<F> const (&rays)[3], F (&nearest)[3]) {
+                          mechanics::Ray<F> const (&way)[rays], F (&nearest)[rays]) {
     F const up = across - line.upward, down = across - line.downward;
-    F t[3], reach[3], miss[3];   // t and reach negative
+    F t[rays], reach[rays], miss[rays];   // t and reach negative
     for (F& least : miss) least = lanes::all_of<F>(__builtin_inff());
-    for (int r = 0; r < 3; ++r) {
-        F const& direction = along_x ? rays[r].direction.y : rays[r].direction.x;
-        F const& reciprocal = along_x ? rays[r].reciprocal.y : rays[r].reciprocal.x;
+    for (int r = 0; r < rays; ++r) {
+        F const& direction = along_x ? way[r].direction.y : way[r].direction.x;
+        F const& reciprocal = along_x ? way[r].reciprocal.y : way[r].reciprocal.x;
         t[r] = lanes::select(direction > 0.0f, up, down) * reciprocal;
-        reach[r] = t[r] * (along_x ? rays[r].direction.x : rays[r].direction.y);
+        reach[r] = t[r] * (along_x ? way[r].direction.x : way[r].direction.y);
     }
     for (int i = line.first; i < line.last; ++i) {
         FaceInterval const& interval = arena.intervals[i];
@@ -40,22 +51,22 @@ LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const&
         F const hi = along - interval.hi;
         // An open door begins at infinity.
         if (interval.door) lo = lanes::select(shut, lo, lanes::all_of<F>(__builtin_inff()));
-        for (int r = 0; r < 3; ++r) miss[r] = lanes::min(miss[r], lanes::max(F(lo + reach[r]), F(hi - reach[r])));
+        for (int r = 0; r < rays; ++r) miss[r] = lanes::min(miss[r], lanes::max(F(lo + reach[r]), F(hi - reach[r])));
     }
-    for (int r = 0; r < 3; ++r)
+    for (int r = 0; r < rays; ++r)
         nearest[r] = lanes::select(lanes::max(t[r], miss[r]) <= 0.0f, lanes::max(t[r], nearest[r]), nearest[r]);
 }
 
 /// Distances along the three rays (right, left, ahead).
 LORE_INLINE void cast_rays(LaneArena const& arena, F const& x, F const& y, mechanics::Directions<F> const& look,
-                           I const& shut, F (&nearest)[3]) {
+                           I const& shut, F (&nearest)[rays]) {
     mechanics::Ray<F> const right = mechanics::ray(look.right);
-    mechanics::Ray<F> const rays[3] = {
+    mechanics::Ray<F> const way[rays] = {
         right, {look.left, {right.reciprocal.y, -right.reciprocal.x}}, mechanics::ray(look.ahead)};
     for (F& distance : nearest) distance = lanes::all_of<F>(-__builtin_inff());
-    for (int i = 0; i < arena.vertical_count; ++i) hit_line<false>(arena, arena.vertical[i], x, y, shut, rays, nearest);
+    for (int i = 0; i < arena.vertical_count; ++i) hit_line<false>(arena, arena.vertical[i], x, y, shut, way, nearest);
     for (int i = 0; i < arena.horizontal_count; ++i)
-        hit_line<true>(arena, arena.horizontal[i], y, x, shut, rays, nearest);
+        hit_line<true>(arena, arena.horizontal[i], y, x, shut, way, nearest);
     for (F& distance : nearest) distance = -distance;
 }
 
@@ -176,27 +187,34 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     Known const known = look_up(arena, x, y, open);
     mechanics::Directions<F> const look = mechanics::directions(
         math::SinCos<F>{lanes::load<F>(work.heading_sin + at), lanes::load<F>(work.heading_cos + at)});
-    F distances[3];
+    F distances[rays];
     cast_rays(arena, x, y, look, ~open, distances);
     LightsSeen const lights = see_lights(arena, x, y, look, known, shining, open);
     auto const sees = [](I const& seen, std::uint32_t kind) __attribute__((always_inline))->I {
         return (seen & static_cast<std::int32_t>(kind)) != 0;
     };
-    I const binary[9] = {sees(lights.right, arena.ball_mask),    sees(lights.left, arena.ball_mask),
-                         sees(lights.right, arena.basket_mask),  sees(lights.left, arena.basket_mask),
-                         sees(lights.right, arena.switch_mask),  sees(lights.left, arena.switch_mask),
-                         lanes::load<I>(work.bumper_right + at), lanes::load<I>(work.bumper_left + at),
-                         lanes::load<I>(work.carrying + at)};
+    // In the order of binary_channels.
+    I const binary[] = {sees(lights.right, arena.ball_mask),    sees(lights.left, arena.ball_mask),
+                        sees(lights.right, arena.basket_mask),  sees(lights.left, arena.basket_mask),
+                        sees(lights.right, arena.switch_mask),  sees(lights.left, arena.switch_mask),
+                        lanes::load<I>(work.bumper_right + at), lanes::load<I>(work.bumper_left + at),
+                        lanes::load<I>(work.carrying + at)};
+    auto const range = [&](F const& distance) __attribute__((always_inline)) {
+        return mechanics::range_value(distance, arena.sensor_range, arena.inverse_range);
+    };
+    // The sensors among continuous_channels, in their order.
+    F const continuous[] = {range(distances[0]), range(distances[1]), range(distances[2])};
+    static_assert(sizeof binary == binary_count * sizeof(I), "a value for every binary sensor");
+    static_assert(sizeof continuous == continuous_sensor_count * sizeof(F), "a value for every continuous sensor");
     I word{};
-    for (int b = 0; b < 9; ++b) {
-        lanes::store(work.neurons + (3 + b) * row + at, ones_where(binary[b]));
+    for (int b = 0; b < binary_count; ++b) {
+        lanes::store(work.neurons + sensors.binary[b] * row + at, ones_where(binary[b]));
         word |= binary[b] & (1 << b);
     }
-    for (int r = 0; r < 3; ++r) {
-        F const value = mechanics::range_value(distances[r], arena.sensor_range, arena.inverse_range);
-        lanes::store(work.neurons + r * row + at, value);
-        lanes::store(work.values + (step * 6 + r) * row + at, value);
-        word |= (value > 0.5f) & (1 << (9 + r));
+    for (int c = 0; c < continuous_sensor_count; ++c) {
+        lanes::store(work.neurons + sensors.continuous[c] * row + at, continuous[c]);
+        lanes::store(work.values + (step * continuous_count + c) * row + at, continuous[c]);
+        word |= (continuous[c] > 0.5f) & (1 << (binary_count + c));
     }
     lanes::store(work.word + at, word);
     lanes::store(work.in_reach + at, sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
@@ -224,18 +242,20 @@ LORE_INLINE void tick_group(LaneWork& work, NeuronGroup const& group, float* out
     }
     for (int k = 0; k < count; ++k) {
         int const target = group.first_target + k;
-        float* const to = target < outputs ? outputs_row + target * row : work.next_hidden + (target - outputs) * row;
+        float* const to =
+            target < effector_count ? outputs_row + target * row : work.next_hidden + (target - effector_count) * row;
         for (int v = 0; v < vectors; ++v)
             lanes::store(to + v * width,
                          activation(lanes::load<F>(networks.biases + target * row + v * width), sums[v][k]));
     }
 }
 
-/// One tick of all lanes' networks; the outputs go to three rows.
+/// One tick of all lanes' networks; the outputs go to one row each.
 template <int vectors>
 LORE_INLINE void tick(LaneWork& work, float* outputs_row) {
     for (int g = 0; g < work.networks.group_count; ++g) {
         NeuronGroup const& group = work.networks.groups[g];
+        static_assert(neuron_group_size == 4);
         switch (group.count) {
         case 4: tick_group<vectors, 4>(work, group, outputs_row); break;
         case 3: tick_group<vectors, 3>(work, group, outputs_row); break;
@@ -245,7 +265,7 @@ LORE_INLINE void tick(LaneWork& work, float* outputs_row) {
     }
     for (int h = 0; h < work.networks.hidden_count; ++h)
         for (int at = h * row; at < h * row + vectors * width; at += width)
-            lanes::store(work.neurons + inputs * row + at, lanes::load<F>(work.next_hidden + at));
+            lanes::store(work.neurons + sensor_count * row + at, lanes::load<F>(work.next_hidden + at));
 }
 
 /// Counts down the pause of the switch, then lets the rules decide where something happens.
@@ -299,18 +319,20 @@ void run(LaneWork& work, int first, int last) {
     }
     for (int step = first; step < last; ++step) {
         for (int at = 0; at < end; at += width) sense(work, at, step);
-        float* const effectors = work.values + (step * 6 + 3) * row;
+        float* const effectors = work.values + (step * continuous_count + continuous_sensor_count) * row;
         tick<vectors>(work, effectors);
         for (int at = 0; at < end; at += width) {
-            F const collect = lanes::load<F>(effectors + 2 * row + at);
+            F const collect = lanes::load<F>(effectors + effector_place(Channel::collect) * row + at);
             I word = lanes::load<I>(work.word + at);
-            for (int e = 0; e < outputs; ++e)
-                word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) & (1 << (12 + e));
+            for (int e = 0; e < effector_count; ++e)
+                word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) &
+                        (1 << (binary_count + continuous_sensor_count + e));
             lanes::store(work.words + step * row + at, __builtin_convertvector(word, Words));
             act(work, at, collect);
         }
         for (int at = 0; at < end; at += width)
-            move(work, at, lanes::load<F>(effectors + at), lanes::load<F>(effectors + row + at));
+            move(work, at, lanes::load<F>(effectors + effector_place(Channel::left_wheel) * row + at),
+                 lanes::load<F>(effectors + effector_place(Channel::right_wheel) * row + at));
     }
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int most_targets = effector_count + most_hidden;
 constexpr int most_sources = sensor_count + most_hidden;
-constexpr int group_size = 4;   ///< of hidden neurons: enough sums in flight to hide the latency of an addition
 
 }   // namespace
 
@@ -35,7 +34,8 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
     int const vector_width = width / lane_vectors;
     int offset = 0;
     for (int first = 0; first < targets;) {
-        int const count = first == 0 ? effector_count : std::min(group_size, targets - first);
+        int const end = first < effector_count ? effector_count : targets;   // the outputs by themselves
+        int const count = std::min(neuron_group_size, end - first);
         NeuronGroup group{count, first, static_cast<int>(sources_.size()), 0};
         std::bitset<most_sources> any;
         for (int k = 0; k < count; ++k) any |= feeds[static_cast<std::size_t>(first + k)];

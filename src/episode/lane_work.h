@@ -1,6 +1,8 @@
 #pragma once
 
 #include <lore/arena/shapes.h>
+#include <lore/core/channels.h>
+#include <lore/core/isa.h>
 
 #include <cstdint>
 
@@ -57,10 +59,13 @@ struct LaneArena {
     std::int32_t switch_pause;
 };
 
+/// Most sums side by side: enough in flight to hide the latency of an addition.
+inline constexpr int neuron_group_size = 4;
+
 /// Targets of a network whose sums run side by side: one for each of `count` accumulators.
 struct NeuronGroup {
     std::int32_t count;
-    std::int32_t first_target;   ///< 0..2 outputs, then hidden neurons
+    std::int32_t first_target;   ///< outputs, then hidden neurons
     std::int32_t first_entry, last_entry;
 };
 
@@ -70,7 +75,7 @@ struct NeuronGroup {
 struct LaneNetworks {
     NeuronGroup const* groups;
     std::int32_t group_count;
-    std::int32_t const* sources;   ///< per entry: 0..11 input, 12.. hidden
+    std::int32_t const* sources;   ///< per entry: inputs, then hidden neurons
     std::int32_t const* offsets;   ///< per entry: of its weights
     float const* weights;          ///< one block a vector, so that a vector alone has it close together
     std::int32_t block_size;       ///< [floats]
@@ -94,7 +99,7 @@ struct alignas(64) LaneWork {
     int vectors;   ///< that hold a running lane, 1 or lane_vectors; rows are as long in any case
     LaneArena arena;
     LaneNetworks networks;
-    float* neurons;       ///< [source][lane]: 12 inputs, then hidden neurons
+    float* neurons;       ///< [source][lane]: inputs, then hidden neurons
     float* next_hidden;   ///< [hidden][lane]
 
     float* values;   ///< the chunk's buffers, see LaneChunk
@@ -108,14 +113,6 @@ struct alignas(64) LaneWork {
     void* owner;   ///< for `act`
 };
 
-namespace isa_baseline {
-void run_steps(LaneWork&, int first, int last);
-}
-namespace isa_v3 {
-void run_steps(LaneWork&, int first, int last);
-}
-namespace isa_v4 {
-void run_steps(LaneWork&, int first, int last);
-}
+LORE_KERNEL(void run_steps(LaneWork&, int first, int last))
 
 }   // namespace lore

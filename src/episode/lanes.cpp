@@ -20,27 +20,17 @@ static_assert(lane_slots == most_lanes);
 
 using RunSteps = void (*)(LaneWork&, int first, int last);
 
-RunSteps kernel_for(Isa isa) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::run_steps;
-    if (isa == Isa::v3) return isa_v3::run_steps;
-#endif
-    assert(isa == Isa::baseline);
-    (void)isa;
-    return isa_baseline::run_steps;
-}
-
 /// The lanes, each filled by the client whenever it is idle.
 class LaneRun {
 public:
     LaneRun(Arena const& arena, EpisodeConfig const& config, int chunk_steps, LaneClient& client)
         : arena_(arena), config_(config), chunk_steps_(chunk_steps), client_(client), width_(lane_count()),
-          run_steps_(kernel_for(active_isa())), arena_layout_(arena) {
+          run_steps_(kernel_for(active_isa(), LORE_KERNELS(run_steps))), arena_layout_(arena) {
         auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
         values_.assign_zeros(rows * continuous_count * columns);
         trail_x_.assign_zeros(rows * columns);
         trail_y_.assign_zeros(rows * columns);
-        words_.resize(rows * columns + 32);
+        words_.resize(rows * columns + most_lanes);
         neurons_.assign_zeros((sensor_count + most_hidden) * columns);
         next_hidden_.assign_zeros(most_hidden * columns);
         work_.arena = arena_layout_.view();
@@ -136,8 +126,9 @@ private:
 
     void act_plainly(int lane, float collect) {
         read_world(lane);
-        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, {0.0f, 0.0f, collect},
-            lanes_[static_cast<std::size_t>(lane)].world);
+        Effectors effectors{};
+        effectors[effector_place(Channel::collect)] = collect;
+        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, effectors, lanes_[static_cast<std::size_t>(lane)].world);
         write_world(lane);
     }
 

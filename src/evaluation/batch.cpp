@@ -1,6 +1,5 @@
 #include <lore/evaluation/evaluation_queue.h>
 
-#include <lore/core/isa.h>
 #include <lore/episode/lanes.h>
 
 #include "chunk_kernel.h"
@@ -15,18 +14,7 @@ namespace lore {
 
 namespace {
 
-static_assert(tally_channels == continuous_count && tally_bins == entropy_bins);
-static_assert(sizeof(LaneTally) == sizeof(std::uint32_t) * tally_channels * tally_bins * most_lanes);
-
-ChunkKernel const& kernel_for(Isa isa) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return isa_v4::chunk_kernel;
-    if (isa == Isa::v3) return isa_v3::chunk_kernel;
-#endif
-    assert(isa == Isa::baseline);
-    (void)isa;
-    return isa_baseline::chunk_kernel;
-}
+static_assert(tally_bins == entropy_bins && tally_lanes == most_lanes);
 
 /// A chunk's buffers should stay in the inner caches: 40 steps of 32 lanes are 43 kB.
 constexpr int usual_chunk_steps = 40;
@@ -35,7 +23,7 @@ constexpr int usual_chunk_steps = 40;
 class Recorder : public LaneClient {
 public:
     Recorder(EvaluationContext const& context, EvaluationQueue& queue)
-        : context_(context), queue_(queue), kernel_(kernel_for(active_isa())) {
+        : context_(context), queue_(queue), kernel_(kernel_for(active_isa(), LORE_KERNELS(chunk))()) {
         if (context.shaper) {
             window_length_ = context.shaper->base().config().window_length;
             reader_.emplace(context.shaper->reader());
@@ -167,13 +155,13 @@ private:
 
     EvaluationContext const& context_;
     EvaluationQueue& queue_;
-    ChunkKernel const& kernel_;
+    ChunkKernel kernel_;
     int window_length_ = 0;
     std::optional<Shaper::Reader> reader_;
     std::array<Lane, most_lanes> lanes_;
     LaneTally tally_{};
     LaneChunk last_;                     ///< rest() reads the row that was seen last
-    std::vector<float> window_values_;   ///< [step][6], of the window that is asked for
+    std::vector<float> window_values_;   ///< [step][continuous_count], of the window that is asked for
     std::vector<std::uint16_t> idle_;    ///< where words of idle lanes go
 };
 

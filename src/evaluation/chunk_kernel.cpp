@@ -30,13 +30,13 @@ LORE_INLINE I one_in_field(I const& bin) {
 }
 
 void tally_some(float const* values, int steps, int lanes, int at, LaneTally& tally) {
-    for (int channel = 0; channel < tally_channels; ++channel) {
+    for (int channel = 0; channel < continuous_count; ++channel) {
         I even{}, odd{};
         float const* column = values + channel * lanes + at;
         for (int done = 0; done < steps;) {
             I narrow{};
             for (int const until = steps - done < narrow_steps ? steps : done + narrow_steps; done < until;
-                 ++done, column += tally_channels * lanes)
+                 ++done, column += continuous_count * lanes)
                 narrow += one_in_field(lanes::truncate(F(lanes::load<F>(column) * 9.99f)));   // entropy_bin
             even += narrow & even_fields;
             odd += narrow >> narrow_bits & even_fields;
@@ -52,7 +52,7 @@ void tally_some(float const* values, int steps, int lanes, int at, LaneTally& ta
 void tally_chunk(float const* values, int steps, int lanes, LaneTally& tally) {
     for (int done = 0; done < steps; done += wide_steps)
         for (int at = 0; at < lanes; at += width)
-            tally_some(values + done * tally_channels * lanes, steps - done < wide_steps ? steps - done : wide_steps,
+            tally_some(values + done * continuous_count * lanes, steps - done < wide_steps ? steps - done : wide_steps,
                        lanes, at, tally);
 }
 
@@ -63,7 +63,7 @@ void transpose_words(std::uint16_t const* words, int steps, int lanes, std::uint
     }
 }
 
-void count_ones(std::uint16_t const* words, int count, std::uint32_t (&ones)[9]) {
+void count_ones(std::uint16_t const* words, int count, std::uint32_t (&ones)[binary_count]) {
     constexpr int at_once = 2 * width;
     using Words = Lanes<std::uint16_t, at_once>;
     for (std::uint32_t& n : ones) n = 0;
@@ -71,20 +71,20 @@ void count_ones(std::uint16_t const* words, int count, std::uint32_t (&ones)[9])
     while (count - done >= at_once) {
         // A 16-bit sum holds the ones of 65535 vectors.
         int const vectors = (count - done) / at_once < 65535 ? (count - done) / at_once : 65535;
-        Words sums[9] = {};
+        Words sums[binary_count] = {};
         for (int v = 0; v < vectors; ++v, done += at_once) {
             Words const here = lanes::load<Words>(words + done);
-            for (int bit = 0; bit < 9; ++bit) sums[bit] += here >> bit & 1;
+            for (int bit = 0; bit < binary_count; ++bit) sums[bit] += here >> bit & 1;
         }
-        for (int bit = 0; bit < 9; ++bit)
+        for (int bit = 0; bit < binary_count; ++bit)
             for (int lane = 0; lane < at_once; ++lane) ones[bit] += sums[bit][lane];
     }
     for (; done < count; ++done)
-        for (int bit = 0; bit < 9; ++bit) ones[bit] += words[done] >> bit & 1u;
+        for (int bit = 0; bit < binary_count; ++bit) ones[bit] += words[done] >> bit & 1u;
 }
 
 }   // namespace
 
-extern ChunkKernel const chunk_kernel{tally_chunk, transpose_words, count_ones};
+ChunkKernel chunk() { return {tally_chunk, transpose_words, count_ones}; }
 
 }   // namespace lore::LORE_ISA_NAMESPACE

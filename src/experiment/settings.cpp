@@ -154,7 +154,7 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.section("diversity");
     d.add("period", evolution.diversity.period, 1, any,
           "the behavioral distance is drawn anew every so many generations");
-    d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: adhoc, hamming, trajectory, entropy");
+    d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: " + distance_names());
 
     MutationConfig& mutation = evolution.mutation;
     d.section("mutation");

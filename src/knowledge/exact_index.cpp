@@ -2,7 +2,6 @@
 #include "exact_tables.h"
 #include "pattern_cache.h"
 
-#include <lore/core/isa.h>
 #include <lore/knowledge/index.h>
 
 #include <algorithm>
@@ -25,7 +24,8 @@
 //    each half, scaled and rounded to integers, bound the continuous part from below.
 //
 // Bound 3 is rounded three times, and the index leaves room for each: the distance in float is off by at most
-// (6 T / 16 + 10) 2^-24 of itself; a sum of n values by n 2^-24 of n; the integers by a half each.
+// (C T / 16 + 10) 2^-24 of itself, C continuous channels; a sum of n values by n 2^-24 of n; the integers by a half
+// each.
 //
 // While the set grows, which is when a knowledge base is built, a search may also use what it has found: buckets are
 // visited from the smallest to the largest, and after k of them whoever has not been seen differs in at least k bits,
@@ -34,6 +34,12 @@
 // bits.
 
 namespace lore {
+
+namespace exact {
+
+static Kernel kernel_of(Isa isa) { return kernel_for(isa, LORE_KERNELS(kernel))(); }
+
+}   // namespace exact
 
 namespace {
 
@@ -79,7 +85,7 @@ exact::Shape shape_of(KnowledgeConfig const& config) {
     shape.relative_error = static_cast<float>((continuous_count * config.window_length / 16.0 + 10) * 0x1p-23);
     shape.key_scale = static_cast<float>(exact::summary_scale) / static_cast<float>(config.window_length);
     shape.summary_bound = bound_of_sums(shape.first_half, exact::summary_size);
-    shape.key_bound = bound_of_sums(config.window_length, continuous_count);
+    shape.key_bound = bound_of_sums(config.window_length, exact::key_size);
     return shape;
 }
 
@@ -101,21 +107,12 @@ std::vector<std::int32_t> limits_of(exact::Shape const& shape) {
     return limits;
 }
 
-exact::Kernel kernel_of(Isa isa) {
-#if LORE_ISA_COUNT > 1
-    if (isa == Isa::v4) return exact::isa_v4::kernel();
-    if (isa == Isa::v3) return exact::isa_v3::kernel();
-#else
-    (void)isa;
-#endif
-    return exact::isa_baseline::kernel();
-}
-
 class ExactIndex : public FeatureIndex {
 public:
     explicit ExactIndex(KnowledgeConfig const& config)
         : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)),
-          kernel_(kernel_of(active_isa())), records_(shape_.words), growing_(std::in_place, shape_.tables, masks_) {}
+          kernel_(exact::kernel_of(active_isa())), records_(shape_.words),
+          growing_(std::in_place, shape_.tables, masks_) {}
 
     void add(Window const& window) override;
     int size() const override { return static_cast<int>(records_.count()); }

@@ -35,13 +35,14 @@ void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) {
 /// The sums of each continuous channel over steps [first, last).
 LORE_INLINE void add_up(float const* values, int first, int last, float (&sums)[continuous_count]) {
     using Four = Lanes<float, 4>;
-    Four low{}, high{};   // channels 0..3 and 2..5
-    for (int step = first; step < last; ++step) {
-        low += lanes::load<Four>(values + step * continuous_count);
-        high += lanes::load<Four>(values + step * continuous_count + 2);
-    }
-    lanes::store(sums, low);
-    lanes::store(sums + 2, high);
+    static_assert(continuous_count >= 4, "sums are taken four channels at a time");
+    constexpr int parts = (continuous_count + 3) / 4;   // the last may overlap the one before
+    auto const start = [](int part) { return 4 * part + 4 < continuous_count ? 4 * part : continuous_count - 4; };
+    Four part_sums[parts]{};
+    for (int step = first; step < last; ++step)
+        for (int part = 0; part < parts; ++part)
+            part_sums[part] += lanes::load<Four>(values + step * continuous_count + start(part));
+    for (int part = 0; part < parts; ++part) lanes::store(sums + start(part), part_sums[part]);
 }
 
 /// A value outside 0 .. 1 moves to the edge, which only brings two windows nearer to each other.
@@ -74,7 +75,7 @@ Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float con
     add_up_halves(shape, values, sums);
     put_summary(shape, sums, digest);
     Key key{};
-    for (int channel = 0; channel < continuous_count; ++channel)
+    for (int channel = 0; channel < key_size; ++channel)
         key.sums[channel] = quantized(sums[0][channel] + sums[1][channel], shape.key_scale);
     int ones = 0;
     for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
@@ -85,13 +86,20 @@ Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float con
 /// The sum of the squared differences of two summaries.
 LORE_INLINE std::int32_t summary_distance(Digest const& a, Digest const& b) {
 #if defined(__SSE2__)
-    __m128i const numbers = _mm_set_epi32(0, -1, -1, -1);   // not the feature's number behind them
-    __m128i const from_a = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&a)));
-    __m128i const from_b = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&b)));
-    __m128i const difference = _mm_or_si128(_mm_subs_epu8(from_a, from_b), _mm_subs_epu8(from_b, from_a));
-    __m128i const low = _mm_unpacklo_epi8(difference, _mm_setzero_si128());
-    __m128i const high = _mm_unpackhi_epi8(difference, _mm_setzero_si128());
-    __m128i sum = _mm_add_epi32(_mm_madd_epi16(low, low), _mm_madd_epi16(high, high));
+    __m128i sum = _mm_setzero_si128();
+    for (int v = 0; v < Digest::vectors; ++v) {
+        __m128i from_a = _mm_loadu_si128(reinterpret_cast<__m128i const*>(&a) + v);
+        __m128i from_b = _mm_loadu_si128(reinterpret_cast<__m128i const*>(&b) + v);
+        if (v == Digest::vectors - 1) {
+            __m128i const numbers = _mm_set_epi32(0, -1, -1, -1);   // not the feature's number behind them
+            from_a = _mm_and_si128(numbers, from_a);
+            from_b = _mm_and_si128(numbers, from_b);
+        }
+        __m128i const difference = _mm_or_si128(_mm_subs_epu8(from_a, from_b), _mm_subs_epu8(from_b, from_a));
+        __m128i const low = _mm_unpacklo_epi8(difference, _mm_setzero_si128());
+        __m128i const high = _mm_unpackhi_epi8(difference, _mm_setzero_si128());
+        sum = _mm_add_epi32(sum, _mm_add_epi32(_mm_madd_epi16(low, low), _mm_madd_epi16(high, high)));
+    }
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0x4e));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0xb1));
     return _mm_cvtsi128_si32(sum);
@@ -135,7 +143,7 @@ LORE_INLINE void take_if_nearer(Nearest& best, std::int32_t feature, float dista
 /// Whether a feature with the pattern and sums of `a` may be as near to `b` as these allow.
 LORE_INLINE bool keys_are_near(Key const& a, Key const& b, int most_differing, std::int32_t largest) {
     std::int32_t sum = 0;
-    for (int i = 0; i < continuous_count; ++i) sum += (a.sums[i] - b.sums[i]) * (a.sums[i] - b.sums[i]);
+    for (int i = 0; i < key_size; ++i) sum += (a.sums[i] - b.sums[i]) * (a.sums[i] - b.sums[i]);
     int const ones = a.ones > b.ones ? a.ones - b.ones : b.ones - a.ones;
     return sum <= largest && ones <= most_differing;
 }
@@ -147,8 +155,11 @@ LORE_INLINE int near_keys(Key const* keys, std::int32_t const* numbers, int coun
     // Several keys at once. Too many differing ones become a term that no bound allows.
     std::int64_t wanted_bits;
     std::memcpy(&wanted_bits, &key, sizeof wanted_bits);
-    constexpr std::int64_t sums_bits = 0x0000ffffffffffff;
-    std::int64_t const allowed_bits = sums_bits | std::int64_t{most_differing < 255 ? most_differing : 255} << 48;
+    constexpr std::int64_t sums_bits = 0x00ffffffffffffff;   // Key::sums; Key::ones above them
+    Key const most{{255, 255, 255, 255, 255, 255, 255},
+                   static_cast<std::uint8_t>(most_differing < 255 ? most_differing : 255)};
+    std::int64_t allowed_bits;
+    std::memcpy(&allowed_bits, &most, sizeof allowed_bits);
 #if defined(__AVX512BW__) && defined(__AVX512VL__) && defined(__BMI2__)
     __m512i const wanted = _mm512_set1_epi64(wanted_bits);
     __m512i const sums = _mm512_set1_epi64(sums_bits);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/core/channels.h>
+#include <lore/core/isa.h>
 #include <lore/core/lanes.h>
 
 #include <cstddef>
@@ -13,6 +14,8 @@ namespace lore::exact {
 /// A window's summary: the sums of each continuous channel over each half of its steps, quantized.
 inline constexpr int summary_size = 2 * continuous_count;
 inline constexpr int summary_scale = 255;   ///< its largest number
+/// A key's sums: those of the first continuous channels, as many as fit. Fewer give a looser bound, but still a bound.
+inline constexpr int key_size = continuous_count < 7 ? continuous_count : 7;
 
 /// Says how far quantized sums of two windows may lie from each other: at most slope * left + offset, if the squares of
 /// the windows' differences add up to `left`.
@@ -38,19 +41,19 @@ struct Shape {
     SumBound summary_bound, key_bound;
 };
 
-/// All that the bounds need of a feature, 16 bytes.
+/// All that the bounds need of a feature: as few vectors of 16 bytes as hold it, one for the paper's channels.
 struct Digest {
-    std::uint8_t summary[summary_size];
+    static constexpr int vectors = (summary_size + 4 + 15) / 16;
+    std::uint8_t summary[16 * vectors - 4];   ///< 0 beyond summary_size
     std::int32_t feature;
 };
-static_assert(sizeof(Digest) == 16);
+static_assert(sizeof(Digest) == 16 * Digest::vectors);
 
 /// Less, to pass over most features that share their bits with a window without looking at them: the sums of each
 /// continuous channel over all steps, quantized, and how many bits are set (255: so many or more).
 struct Key {
-    std::uint8_t sums[continuous_count];
+    std::uint8_t sums[7];   ///< 0 beyond key_size
     std::uint8_t ones;
-    std::uint8_t unused;   ///< 0
 };
 static_assert(sizeof(Key) == 8);
 
@@ -79,7 +82,7 @@ struct GrowingView {
     Key const* keys;                ///< [place]
     std::int32_t const* numbers;    ///< [place]: the feature
     std::uint64_t const* records;   ///< [feature][record_size]
-    float const* values;            ///< [feature][step][6]
+    float const* values;            ///< [feature][step][continuous_count]
 };
 
 /// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
@@ -87,7 +90,7 @@ struct FixedView {
     Shape shape;
     Tables tables;
     std::uint64_t const* records;   ///< [place][record_size]
-    float const* values;            ///< [feature][step][6]
+    float const* values;            ///< [feature][step][continuous_count]
     std::int32_t const* limits;     ///< [differing bits]: largest summary distance of a match
 };
 
@@ -143,14 +146,6 @@ struct Kernel {
     Nearest (*nearest)(FixedView const&, Query const&, Candidate const*, int count);
 };
 
-namespace isa_baseline {
-Kernel kernel();
-}
-namespace isa_v3 {
-Kernel kernel();
-}
-namespace isa_v4 {
-Kernel kernel();
-}
+LORE_KERNEL(Kernel kernel())
 
 }   // namespace lore::exact

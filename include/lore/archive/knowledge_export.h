@@ -11,14 +11,14 @@ namespace lore {
 
 /// A row a feature: feature, value, reward_sum, count, then each channel of each step (range_right_0 .. collect_19).
 std::string knowledge_csv(KnowledgeBase const&);
-/// features.npy (n, T, 15), values.npy, reward_sums.npy, counts.npy and provenance.json into a directory, which is made
-/// if need be. Throws Error.
+/// features.npy (n, T, channel_count), values.npy, reward_sums.npy, counts.npy and provenance.json into a directory,
+/// which is made if need be. Throws Error.
 void export_knowledge(std::string const& directory, KnowledgeBase const&);
 /// What a knowledge base knows of its origin, as its file holds it.
 std::string provenance_json(Provenance const&);
 
-/// Windows from an NPY file of shape (n, T, 15) or (n, 15 T), one after the other as the steps of a trace.
-/// Throws Error if the shape is another, or a binary channel is neither 0 nor 1.
+/// Windows from an NPY file of shape (n, T, C) or (n, C T), C = channel_count, one after the other as the steps of a
+/// trace. Throws Error if the shape is another, or a binary channel is neither 0 nor 1.
 Trace read_windows(std::string const& path, int window_length);
 
 }   // namespace lore

@@ -37,7 +37,7 @@ using Effectors = std::array<float, effector_count>;
 RobotState start_robot(Arena const&);
 WorldState start_world(Arena const&);
 
-/// Reads the 12 sensors at the present pose. Plain definition; the lane twin agrees to the bit.
+/// Reads the sensors at the present pose. Plain definition; the lane twin agrees to the bit.
 Sensors sense(Arena const&, RobotState const&, WorldState const&);
 /// Pick up, release, press: at most one event a step.
 void act(Arena const&, Pose const&, Effectors const&, WorldState&);

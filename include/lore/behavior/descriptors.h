@@ -25,6 +25,17 @@ struct Descriptors {
     friend bool operator==(Descriptors const&, Descriptors const&) = default;
 };
 
+/// Calls `visit` with every field, in the order in which checkpoints hold them: the one list of them, for all who
+/// store, send, check or invent descriptors.
+template <class AnyDescriptors, class Visit>
+void for_each_field(AnyDescriptors& descriptors, Visit const& visit) {
+    auto& [balls, bits, path, entropies] = descriptors;   // does not compile while one is missing
+    visit(balls);
+    visit(bits);
+    visit(path);
+    visit(entropies);
+}
+
 /// The plain definition, from a recorded evaluation.
 Descriptors describe(Arena const&, Trace const&);
 

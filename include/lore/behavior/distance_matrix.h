@@ -38,8 +38,11 @@ private:
     std::vector<double> values_;
 };
 
+/// Every pair (i, j) with i in [first, last), j < i, of a pool, by distance(): the definition.
+void measure_rows_plainly(DistanceKind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 /// The fast path: every pair (i, j) with i in [first, last), j < i, of a pool, equal to distance() to the bit.
 /// A pure function of the row range, so that ranks can share the rows. Chooses its instruction set at run time.
+/// A kind that has no fast twin is measured plainly.
 void measure_rows(DistanceKind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 
 }   // namespace lore

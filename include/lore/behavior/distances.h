@@ -3,14 +3,16 @@
 #include <lore/behavior/descriptors.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace lore {
 
 enum class DistanceKind : std::uint8_t { adhoc, hamming, trajectory, entropy };
-inline constexpr int distance_kinds = 4;
+inline constexpr int distance_kinds = static_cast<int>(DistanceKind::entropy) + 1;   ///< the last one's number and 1
 std::string_view name(DistanceKind);
 DistanceKind distance_kind(std::string_view name);   ///< throws UsageError
+std::string distance_names();                        ///< of all, with commas between them
 
 /// Behavioral distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These
 /// are the definitions; measure_rows (distance_matrix.h) is the fast twin.

@@ -22,4 +22,30 @@ void use_isa(Isa);
 /// Floats in a native vector: 4, 8, 16.
 constexpr int lanes_of(Isa isa) { return isa == Isa::v4 ? 16 : isa == Isa::v3 ? 8 : 4; }
 
+/// LORE_KERNEL(EditKernel edit()) declares a function of a kernel source, one for each instruction set, in the
+/// namespace where it stands; kernel_for(isa, LORE_KERNELS(edit)) is the one for that set.
+#define LORE_KERNEL(...)                                                                                               \
+    namespace isa_baseline {                                                                                           \
+    __VA_ARGS__;                                                                                                       \
+    }                                                                                                                  \
+    namespace isa_v3 {                                                                                                 \
+    __VA_ARGS__;                                                                                                       \
+    }                                                                                                                  \
+    namespace isa_v4 {                                                                                                 \
+    __VA_ARGS__;                                                                                                       \
+    }
+#if LORE_ISA_COUNT > 1
+#define LORE_KERNELS(function) isa_baseline::function, isa_v3::function, isa_v4::function
+#else
+#define LORE_KERNELS(function) isa_baseline::function
+#endif
+
+/// Sets that this build lacks fall back to the baseline.
+template <class Function>
+Function* kernel_for(Isa isa, Function* baseline, Function* v3 = nullptr, Function* v4 = nullptr) {
+    Function* const compiled[]{baseline, v3, v4};
+    Function* const wanted = compiled[static_cast<int>(isa)];
+    return wanted != nullptr ? wanted : baseline;
+}
+
 }   // namespace lore

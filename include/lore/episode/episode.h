@@ -17,14 +17,14 @@ struct EpisodeConfig {
 
 /// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
 ///
-/// Per step: one word with the binary channels and six floats with the continuous ones. 26 bytes a step, 104 kB an
-/// evaluation of 4000 steps.
+/// Per step: one word with the binary channels and a float for each continuous one. 26 bytes a step for the paper's
+/// channels, 104 kB an evaluation of 4000 steps.
 struct Trace {
-    /// Bits 0..8: the binary channels in the order of binary_channels; bits 9..14: the continuous channels of
-    /// continuous_channels thresholded for the Hamming descriptor (range sensor nearer than half its range: value >
-    /// 0.5; effector > 0.5). Bit 15 is 0.
+    /// The lowest binary_count bits: the binary channels in the order of binary_channels; then the continuous channels
+    /// in the order of continuous_channels, thresholded for the Hamming descriptor (range sensor nearer than half its
+    /// range: value > 0.5; effector > 0.5). Bits from channel_count on are 0.
     std::vector<std::uint16_t> bits;
-    /// [step][6], continuous_channels order.
+    /// [step][continuous_count], continuous_channels order.
     std::vector<float> values;
     std::vector<Pose> poses;   ///< before the move of that step
     WorldState final_world;

@@ -46,7 +46,7 @@ public:
 /// The windows of features, one after the other; the only copy while a knowledge base is being built.
 struct FeatureWindows {
     std::vector<std::uint16_t> bits;   ///< [feature][step], without the bits that are no channels of a window
-    std::vector<float> values;         ///< [feature][step][6]
+    std::vector<float> values;         ///< [feature][step][continuous_count]
 
     void add(Window const&);
     Window window(int feature, int window_length) const;   ///< valid until the next add

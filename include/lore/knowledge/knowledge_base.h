@@ -27,7 +27,7 @@ struct Provenance {
 /// The arrays of a knowledge base while it is being made.
 struct KnowledgeArrays {
     std::vector<std::uint16_t> bits;     ///< [feature][step]
-    std::vector<float> windows;          ///< [feature][step][6]
+    std::vector<float> windows;          ///< [feature][step][continuous_count]
     std::vector<double> values;          ///< [feature]
     std::vector<double> reward_sums;     ///< [feature]
     std::vector<std::uint32_t> counts;   ///< [feature]
@@ -57,7 +57,7 @@ public:
         KnowledgeConfig config;
         Provenance provenance;
         std::span<std::uint16_t const> bits;     ///< [feature][step]
-        std::span<float const> windows;          ///< [feature][step][6]
+        std::span<float const> windows;          ///< [feature][step][continuous_count]
         std::span<double const> values;          ///< [feature]
         std::span<double const> reward_sums;     ///< [feature]
         std::span<std::uint32_t const> counts;   ///< [feature]

@@ -27,11 +27,12 @@ inline constexpr std::uint16_t window_bits_mask = (1u << binary_count) - 1;
 
 /// window_length consecutive steps of one evaluation, the unit of knowledge (paper, "Behavioral features").
 ///
-/// A view, valid as long as its Trace. Distance between two windows: Frobenius over the window_length x 15 values; the
-/// binary channels contribute the number of differing bits, the continuous ones the squares of their differences.
+/// A view, valid as long as its Trace. Distance between two windows: Frobenius over the window_length x channel_count
+/// values; the binary channels contribute the number of differing bits, the continuous ones the squares of their
+/// differences.
 struct Window {
-    std::span<std::uint16_t const> bits;   ///< per step, as Trace::bits; only bits 0..8 (the binary channels) count
-    std::span<float const> values;         ///< [step][6], as Trace::values
+    std::span<std::uint16_t const> bits;   ///< per step, as Trace::bits; only the bits of binary channels count
+    std::span<float const> values;         ///< [step][continuous_count], as Trace::values
 };
 
 /// The non-overlapping windows of a trace in order; steps that do not fill a last window are left out.

@@ -9,7 +9,7 @@
 
 namespace lore {
 
-/// Neurons are numbered: 0..11 inputs (the sensors), 12..14 outputs (the effectors), 15.. hidden.
+/// Neurons are numbered: inputs (the sensors), then outputs (the effectors), then hidden neurons.
 using NeuronIndex = std::uint8_t;
 inline constexpr int first_output = sensor_count;
 inline constexpr int first_hidden = channel_count;
@@ -41,7 +41,7 @@ struct Edge {
 /// genes in [0, 1]. The order of the edges is part of the genome: mutation walks them in it.
 struct Genome {
     std::vector<Edge> edges;
-    std::vector<float> biases;   ///< genes; the 3 outputs first, then the hidden neurons: biases.size() == 3 + hidden
+    std::vector<float> biases;   ///< genes; the outputs first, then the hidden neurons
 
     int hidden_count() const { return static_cast<int>(biases.size()) - effector_count; }
     friend bool operator==(Genome const&, Genome const&) = default;

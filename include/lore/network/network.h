@@ -11,13 +11,13 @@ namespace lore {
 /// A controller as the simulator sees it: a Genome compiled to flat arrays, immutable.
 ///
 /// Hidden neurons from which no output can be reached are left out; the others keep their order. Values of one tick
-/// live in one array: the 12 inputs, then the hidden neurons. A neuron's sum runs over its sources in increasing
+/// live in one array: the inputs, then the hidden neurons. A neuron's sum runs over its sources in increasing
 /// index, starting from zero: this order is part of the definition, because float addition is not associative.
 struct Network {
     int hidden_count = 0;
     std::vector<std::uint16_t>
-        first;   ///< per target (3 outputs, then hidden), first entry in source/weight; size targets + 1
-    std::vector<std::uint8_t> source;   ///< 0..11 input, 12.. hidden
+        first;   ///< per target (outputs, then hidden), first entry in source/weight; size targets + 1
+    std::vector<std::uint8_t> source;   ///< inputs, then hidden neurons
     std::vector<float> weight;          ///< decoded, [-5, 5]
     std::vector<float> bias;            ///< per target: decoded bias times 5, as the activation uses it
 

@@ -52,8 +52,8 @@ TEST(Checkpoint, keeps_the_features_shown_of_a_run_shaped_by_share) {
     class Shows : public PretendedEvaluator {
     public:
         std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
-                                         CompletionListener* audience) override {
-            auto evaluations = PretendedEvaluator::evaluate(genomes, audience);
+                                         CompletionListener* listener) override {
+            auto evaluations = PretendedEvaluator::evaluate(genomes, listener);
             for (std::size_t i = 0; i < genomes.size(); ++i)
                 for (std::uint32_t feature = 0; feature < 3; ++feature)
                     if (genomes[i]->biases[feature] > 0.5f) evaluations[i].shown.push_back(feature);

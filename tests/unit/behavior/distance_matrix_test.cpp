@@ -18,9 +18,9 @@ DistanceMatrix three_by_three() {
 }
 
 DistanceMatrix by_definition(DistanceKind kind, std::vector<Descriptors> const& pool) {
-    DistanceMatrix matrix(static_cast<int>(pool.size()));
-    for (int i = 0; i < matrix.size(); ++i)
-        for (int j = 0; j < i; ++j) matrix.set(i, j, distance(kind, pool[i], pool[j]));
+    int const size = static_cast<int>(pool.size());
+    DistanceMatrix matrix(size);
+    measure_rows_plainly(kind, pointers_to(pool), 0, size, matrix);
     return matrix;
 }
 

@@ -17,7 +17,7 @@ std::vector<HammingKernel> kernels() {
     std::vector<HammingKernel> all;
     for (int isa = 0; isa <= static_cast<int>(detected_isa()); ++isa)
         for (bool const by_instruction : {false, true})
-            all.push_back(hamming_kernel(static_cast<Isa>(isa), by_instruction));
+            all.push_back(kernel_for(static_cast<Isa>(isa), LORE_KERNELS(hamming))(by_instruction));
     return all;
 }
 

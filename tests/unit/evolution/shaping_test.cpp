@@ -81,8 +81,8 @@ TEST(ShapingUse, ties_decides_among_equals_and_no_more) {
     class EqualButShaped : public ConstantEvaluator {
     public:
         std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
-                                         CompletionListener* audience) override {
-            auto evaluations = ConstantEvaluator::evaluate(genomes, audience);
+                                         CompletionListener* listener) override {
+            auto evaluations = ConstantEvaluator::evaluate(genomes, listener);
             for (std::size_t i = 0; i < genomes.size(); ++i) evaluations[i].shaping = genomes[i]->biases[0];
             return evaluations;
         }

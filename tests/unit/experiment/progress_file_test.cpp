@@ -18,7 +18,7 @@ GenerationSummary row_at(int generation) {
     row.generation = generation;
     row.best_balls = generation / 3;
     row.mean_balls = generation / 7.0;
-    row.distance = static_cast<DistanceKind>(generation % 4);
+    row.distance = static_cast<DistanceKind>(generation % distance_kinds);
     row.mean_diversity = 1.0 / (generation + 1);
     row.evaluations = static_cast<std::uint64_t>(generation) * 200;
     row.steps = row.evaluations * 4000;
