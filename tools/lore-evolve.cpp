@@ -26,14 +26,15 @@ namespace {
 
 using namespace lore;
 
+constexpr char this_program[] = "lore-evolve";
 constexpr char examples[] = R"(Examples:
   lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
   mpirun -n 2 lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007 --resume
   mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --out runs/kb1/001 --set evolution.generations=500
   lore-evolve --bench
 
-Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line or configuration,
-1 any other failure.)";
+Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line, configuration or
+the name of an input, 1 any other failure.)";
 
 /// "HH:MM:SS", "MM:SS" or seconds.
 double seconds_of(std::string const& text) {
@@ -58,23 +59,32 @@ struct CommandLine {
     std::string max_time;
 };
 
+/// Prints without throwing, unlike fmt::print; where that fails, says so and what to do.
+ExitCode print_result(std::string const& text, std::string_view remedy) {
+    std::fputs(text.c_str(), stdout);
+    std::string const lost = lost_result(remedy);
+    if (lost.empty()) return ExitCode::done;
+    complain(this_program, lost, ExitCode::failure);
+    return ExitCode::failure;
+}
+
 /// The rest of the program on rank 0, after the command line: 0 or 75.
 ExitCode work(Session const& session, CommandLine& line) {
     if (line.bench) {
         BenchOutcome const bench = run_bench(session);
-        fmt::print("{:.0f} steps per second on {} rank(s)\nsignature: {}\n", bench.steps_per_second, session.size(),
-                   bench.signature);
-        return ExitCode::done;
+        return print_result(fmt::format("{:.0f} steps per second on {} rank(s)\nsignature: {}\n",
+                                        bench.steps_per_second, session.size(), bench.signature),
+                            "Send it where it can be written.");
     }
     RunOutcome const outcome = run_experiment(session, line.run);
     if (!outcome.finished) {
-        fmt::print(stderr, "stopped at generation {} by {}; go on with --resume\n", outcome.generation,
-                   outcome.stop_reason);
+        write_stderr(fmt::format("stopped at generation {} by {}; go on with --resume\n", outcome.generation,
+                                 outcome.stop_reason));
         return ExitCode::interrupted;
     }
-    fmt::print("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id), outcome.best->balls,
-               outcome.signature);
-    return ExitCode::done;
+    return print_result(fmt::format("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id),
+                                    outcome.best->balls, outcome.signature),
+                        "The run is saved; manifest.json in its directory has the signature.");
 }
 
 /// Reads the command line; an exit code where there is nothing else to do (--help, or a mistake).
@@ -136,15 +146,10 @@ ExitCode direct(Session const& session, int argc, char** argv) {
     return work(session, line);
 }
 
-int complain(std::string_view what, ExitCode code) {
-    std::fflush(stdout);
-    fmt::print(stderr, "lore-evolve: {}\n", what);
-    return static_cast<int>(code);
-}
-
 }   // namespace
 
 int main(int argc, char** argv) {
+    own_standard_streams();
     int status = 0;
     try {
         // 1. MPI, if a launcher has started us.
@@ -154,21 +159,20 @@ int main(int argc, char** argv) {
             if (session.rank() == 0) status = static_cast<int>(direct(session, argc, argv));
             else work_for_rank_0(session);
         } catch (Error const& error) {
-            if (session.rank() != 0) {
-                complain(error.what(), error.exit_code());
-                session.abort(1);
-            }
-            status = complain(error.what(), error.exit_code());
+            status = complain(this_program, error.what(), error.exit_code());
+            if (session.rank() != 0) session.abort(1);
         } catch (std::bad_alloc const&) {
-            complain(fmt::format("rank {} on {} ran out of memory", session.rank(), host_name()), ExitCode::failure);
+            complain(this_program, fmt::format("rank {} on {} ran out of memory", session.rank(), host_name()),
+                     ExitCode::failure);
             session.abort(1);
         } catch (std::exception const& error) {
             // 3. Whatever was not foreseen ends all ranks: one that just left would let the others wait for ever.
-            complain(fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what()), ExitCode::failure);
+            complain(this_program, fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what()),
+                     ExitCode::failure);
             session.abort(1);
         }
-        if (!stdout_is_written() && status == 0)
-            status = complain("cannot write the result to stdout", ExitCode::failure);
-    } catch (Error const& error) { return complain(error.what(), error.exit_code()); }
+        if (std::string const lost = lost_result(); status == 0 && !lost.empty())   // of --help
+            status = complain(this_program, lost, ExitCode::failure);
+    } catch (Error const& error) { return complain(this_program, error.what(), error.exit_code()); }
     return status;
 }

@@ -13,6 +13,7 @@
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/trace_file.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/episode/replay.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
@@ -87,13 +88,6 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Knowle
         shapers.emplace_back(std::move(base));
     }
     return shapers;
-}
-
-void make_directory(std::string const& path) {
-    std::error_code failed;
-    std::filesystem::create_directories(path, failed);
-    if (failed)
-        throw UsageError(fmt::format("cannot make the directory {}", path), failed.message(), "Choose another --out.");
 }
 
 /// 1. Simulate the individual again. 2. Look its windows up. 3. Write the trace and draw it.
@@ -173,7 +167,7 @@ int run(int argc, char** argv) {
         "  lore-replay --actions a.csv --task source --out trace.csv          open loop: columns a0,a1,a2\n"
         "  lore-replay --follow trace.csv.gz --task source --out mine.csv     teacher forcing: each row from the "
         "recorded one\n"
-        "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.");
+        "Exit codes: 0 done, 2 usage, configuration or the name of an input, 1 any other failure.");
     app.set_version_flag("--version", [] { return version_text("lore-replay"); });
     app.add_option("RUN_DIR", arguments.run,
                    "directory of a run; writes trace.csv and trajectory.svg, .png into --out");

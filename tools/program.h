@@ -1,5 +1,7 @@
 #pragma once
 
+#include "main.h"
+
 #include <lore/core/error.h>
 
 #include <CLI/CLI.hpp>
@@ -8,35 +10,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lore {
-
-/// Whether everything printed so far has left the program, whoever flushed it.
-inline bool stdout_is_written() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
-
-/// The body of main() for programs without MPI: catches everything, says it once, in one line, and returns the exit
-/// code.
-template <class Run>
-int run_program(char const* name, Run&& run) {
-    auto const complain = [&](char const* what, ExitCode code) {
-        std::fflush(stdout);
-        fmt::print(stderr, "{}: {}\n", name, what);
-        return static_cast<int>(code);
-    };
-    try {
-        int const code = run();
-        if (!stdout_is_written()) return complain("cannot write the result to stdout", ExitCode::failure);
-        return code;
-    } catch (Error const& error) { return complain(error.what(), error.exit_code()); } catch (std::bad_alloc const&) {
-        return complain("out of memory", ExitCode::failure);
-    } catch (std::exception const& error) { return complain(error.what(), ExitCode::failure); }
-}
 
 /// Decimal digits of 64 bits, for seeds: CLI11 alone reads 0x10, turns -1 into 2^64 - 1, and so does the rest of what
 /// is too large.

@@ -4,6 +4,8 @@
 #include "posix_file.h"
 #include "zstd_frame.h"
 
+#include <lore/core/input_file.h>
+
 #include <fmt/format.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -172,12 +174,7 @@ namespace {
 /// Reads frame after frame.
 class FrameReader {
 public:
-    explicit FrameReader(std::string const& path) : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-        if (file_.get() < 0) throw file_error("read", path, errno);
-        struct stat status {};
-        if (::fstat(file_.get(), &status) != 0) throw file_error("read", path, errno);
-        if (S_ISDIR(status.st_mode)) throw file_error("read", path, EISDIR);
-        left_ = static_cast<std::uint64_t>(status.st_size);
+    explicit FrameReader(std::string const& path) : path_(path), file_(open_regular(path)), left_(file_.size) {
         Bytes head(std::min<std::uint64_t>(left_, file_head().size()));
         read(head);
         unseal(head, FileKind::all_individuals, path);
@@ -210,7 +207,7 @@ public:
 private:
     void read(std::span<std::byte> wanted) {
         while (!wanted.empty()) {
-            ssize_t const got = ::read(file_.get(), wanted.data(), wanted.size());
+            ssize_t const got = ::read(file_.descriptor.get(), wanted.data(), wanted.size());
             if (got < 0 && errno == EINTR) continue;
             if (got < 0) throw file_error("read", path_, errno);
             if (got == 0) fail("the file was cut while it was read");
@@ -221,7 +218,7 @@ private:
     }
 
     std::string path_;
-    FileDescriptor file_;
+    InputFile file_;
     std::uint64_t left_ = 0, read_ = 0, chain_ = 0;
     FrameHeader header_{};
     Bytes stored_;

@@ -2,15 +2,14 @@
 
 #include "posix_file.h"
 
+#include <lore/core/input_file.h>
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 
 namespace lore {
 
@@ -21,20 +20,6 @@ constexpr std::string_view temporary_mark = ".lore-tmp-";
 std::string directory_of(std::string const& path) {
     std::string const directory = std::filesystem::path{path}.parent_path().string();
     return directory.empty() ? "." : directory;
-}
-
-std::string_view remedy_for(int error_number) {
-    switch (error_number) {
-    case ENOSPC:
-    case EDQUOT: return "Free some space and run again.";
-    case EFBIG: return "Raise the limit on file sizes (ulimit -f) and run again.";
-    case EACCES:
-    case EPERM:
-    case EROFS: return "Choose a place where you may write, or change its permissions.";
-    case ENOENT:
-    case ENOTDIR: return "Check the path.";
-    default: return "Check the disk.";
-    }
 }
 
 /// Removes the temporary file unless the rename has happened.
@@ -58,10 +43,6 @@ void write_durably(std::string const& temporary, BytePieces content, std::string
 }
 
 }   // namespace
-
-Error file_error(std::string_view verb, std::string const& path, int error_number) {
-    return Error(fmt::format("cannot {} {}", verb, path), std::strerror(error_number), remedy_for(error_number));
-}
 
 void write_fully(int descriptor, std::span<std::byte const> content, std::string const& path) {
     while (!content.empty()) {
@@ -109,34 +90,7 @@ void write_file_atomically(std::string const& path, std::string_view content) {
     write_file_atomically(path, std::as_bytes(std::span{content.data(), content.size()}));
 }
 
-std::vector<std::byte> read_file(std::string const& path) {
-    FileDescriptor const file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (file.get() < 0) throw file_error("read", path, errno);
-    struct stat status {};
-    if (::fstat(file.get(), &status) != 0) throw file_error("read", path, errno);
-    if (S_ISDIR(status.st_mode)) throw file_error("read", path, EISDIR);
-    std::vector<std::byte> content(static_cast<std::size_t>(status.st_size));
-    std::size_t filled = 0;
-    while (true) {
-        if (filled == content.size()) {   // a pipe, or a file that has grown since
-            std::byte probe{};
-            ssize_t const got = ::read(file.get(), &probe, 1);
-            if (got < 0 && errno == EINTR) continue;
-            if (got < 0) throw file_error("read", path, errno);
-            if (got == 0) break;
-            content.resize(std::max<std::size_t>(4096, content.size() * 2));
-            content[filled++] = probe;
-            continue;
-        }
-        ssize_t const got = ::read(file.get(), content.data() + filled, content.size() - filled);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw file_error("read", path, errno);
-        if (got == 0) break;
-        filled += static_cast<std::size_t>(got);
-    }
-    content.resize(filled);
-    return content;
-}
+std::vector<std::byte> read_file(std::string const& path) { return read_bytes(path); }
 
 void remove_leftovers(std::string const& directory) {
     std::error_code ignored;

@@ -1,6 +1,6 @@
 #include <lore/archive/checksum.h>
 
-#include "posix_file.h"
+#include <lore/core/input_file.h>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include <fcntl.h>
+#include <unistd.h>
 
 namespace lore {
 
@@ -17,13 +17,12 @@ std::uint64_t checksum(std::span<std::byte const> bytes) { return XXH3_64bits(by
 std::uint64_t checksum(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
 
 std::uint64_t checksum_of_file(std::string const& path) {
-    FileDescriptor const file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (file.get() < 0) throw file_error("read", path, errno);
+    InputFile const file = open_regular(path);
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> const state{XXH3_createState(), &XXH3_freeState};
     XXH3_64bits_reset(state.get());
     std::vector<std::byte> piece(1u << 20);
     while (true) {
-        ssize_t const got = ::read(file.get(), piece.data(), piece.size());
+        ssize_t const got = ::read(file.descriptor.get(), piece.data(), piece.size());
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) throw file_error("read", path, errno);
         if (got == 0) return XXH3_64bits_digest(state.get());

@@ -1,7 +1,8 @@
 #include <lore/archive/container.h>
 
-#include "posix_file.h"
 #include "zstd_frame.h"
+
+#include <lore/core/input_file.h>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -12,9 +13,8 @@
 #include <cstring>
 #include <utility>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 namespace lore {
 
@@ -182,14 +182,14 @@ void write_plain_container(std::string const& path, FileKind kind, BytePieces pa
 Bytes read_container(std::string const& path, FileKind expected) { return unseal(read_file(path), expected, path); }
 
 MappedPayload map_container(std::string const& path, FileKind expected) {
-    FileDescriptor const file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (file.get() < 0) throw file_error("read", path, errno);
-    struct stat status {};
-    if (::fstat(file.get(), &status) != 0) throw file_error("read", path, errno);
-    if (S_ISDIR(status.st_mode)) throw file_error("read", path, EISDIR);
-    auto const length = static_cast<std::size_t>(status.st_size);
+    InputFile const file = open_input(path);
+    if (!file.regular) {   // a pipe cannot be mapped
+        auto const raw = std::make_shared<Bytes const>(unseal(read_bytes(file), expected, path));
+        return {*raw, raw};
+    }
+    auto const length = static_cast<std::size_t>(file.size);
     if (length == 0) refuse(path, "the file is empty", renew);
-    void* const address = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file.get(), 0);
+    void* const address = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file.descriptor.get(), 0);
     if (address == MAP_FAILED) throw file_error("read", path, errno);
     std::shared_ptr<void const> mapping{address,
                                         [length](void const* start) { ::munmap(const_cast<void*>(start), length); }};
@@ -202,10 +202,9 @@ MappedPayload map_container(std::string const& path, FileKind expected) {
 }
 
 FileKind kind_of_file(std::string const& path) {
-    FileDescriptor const file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (file.get() < 0) throw file_error("read", path, errno);
+    InputFile const file = open_regular(path);
     std::byte start[sizeof(Header)];
-    ssize_t const got = ::read(file.get(), start, sizeof start);
+    ssize_t const got = ::read(file.descriptor.get(), start, sizeof start);
     if (got < 0) throw file_error("read", path, errno);
     return static_cast<FileKind>(header_of({start, static_cast<std::size_t>(got)}, path).kind);
 }

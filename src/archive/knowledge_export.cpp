@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/npy_file.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 
 #include <array>
 #include <filesystem>
@@ -45,10 +46,7 @@ std::string knowledge_csv(KnowledgeBase const& base) {
 }
 
 void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
-    std::error_code failed;
-    std::filesystem::create_directories(directory, failed);
-    if (failed)
-        throw Error(fmt::format("cannot make the directory {}", directory), failed.message(), "Choose another one.");
+    make_directory(directory);
     auto const file = [&](char const* name) { return (std::filesystem::path{directory} / name).string(); };
 
     auto const features = static_cast<std::size_t>(base.size());

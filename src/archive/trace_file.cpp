@@ -1,15 +1,15 @@
 #include <lore/archive/trace_file.h>
 
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <limits>
-#include <memory>
+#include <new>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -19,26 +19,46 @@ namespace lore {
 
 namespace {
 
-/// The whole file, uncompressed; zlib hands a file that is not gzip through as it is.
-std::string read_text(std::string const& path) {
-    struct Close {
-        void operator()(gzFile file) const { gzclose_r(file); }
+constexpr std::size_t most_trace = std::size_t{1} << 30;   ///< of a trace's text [bytes]; a step has some 300
+
+constexpr std::string_view gzip_mark = "\x1f\x8b";
+
+/// The text of a gzip file, all of its members.
+std::string inflated(std::string_view packed, std::string const& path) {
+    auto const refuse = [&](std::string_view reason) {
+        throw Error(fmt::format("cannot read {}", path), reason, "Fetch it again.");
     };
-    std::unique_ptr<gzFile_s, Close> const file{std::filesystem::is_regular_file(path) ? gzopen(path.c_str(), "rb")
-                                                                                       : nullptr};
-    if (!file)
-        throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
+    z_stream stream{};
+    constexpr int gzip_only = 16 + MAX_WBITS;
+    if (inflateInit2(&stream, gzip_only) != Z_OK) throw std::bad_alloc{};
+    struct End {
+        z_stream* stream;
+        ~End() { inflateEnd(stream); }
+    } const end{&stream};
     std::string text;
     std::array<char, 1 << 16> block;
-    int got = 0;
-    while ((got = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0)
-        text.append(block.data(), static_cast<std::size_t>(got));
-    int status = Z_OK;
-    char const* const reason = gzerror(file.get(), &status);
-    if (got < 0 || status != Z_OK)
-        throw Error(fmt::format("cannot read {}", path), status == Z_BUF_ERROR ? "the compressed file is cut" : reason,
-                    "Fetch it again.");
-    return text;
+    while (true) {
+        auto const piece = static_cast<uInt>(std::min(packed.size(), block.size()));
+        stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+        stream.avail_in = piece;
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_out = static_cast<uInt>(block.size());
+        int const status = inflate(&stream, Z_NO_FLUSH);
+        if (status == Z_BUF_ERROR) refuse("the compressed file is cut");
+        if (status != Z_OK && status != Z_STREAM_END) refuse(stream.msg != nullptr ? stream.msg : "it is damaged");
+        packed.remove_prefix(piece - stream.avail_in);
+        text.append(block.data(), block.size() - stream.avail_out);
+        if (text.size() > most_trace) refuse(fmt::format("its text has more than {} bytes", most_trace));
+        if (status != Z_STREAM_END) continue;
+        if (!packed.starts_with(gzip_mark)) return text;
+        inflateReset(&stream);
+    }
+}
+
+/// The whole file, uncompressed where it is gzip.
+std::string read_trace_text(std::string const& path) {
+    std::string text = read_text(path, most_trace);
+    return text.starts_with(gzip_mark) ? inflated(text, path) : text;
 }
 
 /// A CSV text, line by line and field by field; everything wrong with it becomes an Error that names the line.
@@ -46,7 +66,7 @@ class CsvReader {
 public:
     CsvReader(CsvReader const&) = delete;   // its views look into its own text
     CsvReader& operator=(CsvReader const&) = delete;
-    explicit CsvReader(std::string const& path) : path_(path), text_(read_text(path)), rest_(text_) {
+    explicit CsvReader(std::string const& path) : path_(path), text_(read_trace_text(path)), rest_(text_) {
         if (!next_line()) fail_file("it is empty");
         names_ = fields_;
     }

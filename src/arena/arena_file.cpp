@@ -3,6 +3,7 @@
 #include <lore/arena/geometry.h>
 #include <lore/core/channels.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 #include <lore/core/toml.h>
 
 #include "builtin_arenas.h"
@@ -10,9 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -197,16 +196,15 @@ std::string arena_text(std::string const& file) {
         if (arena.name == file) return std::string{arena.text};
         names.push_back(arena.name);
     }
-    std::ifstream stream{file, std::ios::binary};
-    std::ostringstream text;
-    if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) {
+    try {
+        return read_text(current_path(file));
+    } catch (UsageError const& error) {
+        if (std::error_code ignored; std::filesystem::exists(file, ignored)) throw;
         std::string const meant = nearest_word(file, names.data(), names.size());
-        throw UsageError(fmt::format("cannot read arena {}", file),
-                         "no such file, not readable, or empty, and no built-in arena of that name",
+        throw UsageError(fmt::format("cannot read arena {}", file), "no such file, and no built-in arena of that name",
                          meant.empty() ? fmt::format("Give the path of an arena file, or: {}.", fmt::join(names, ", "))
                                        : fmt::format("Did you mean '{}'?", meant));
     }
-    return text.str();
 }
 
 Arena load_arena(std::string const& file, std::string const& task) { return parse_arena(arena_text(file), file, task); }

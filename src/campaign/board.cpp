@@ -1,7 +1,8 @@
 #include "board.h"
 
+#include <lore/core/standard_streams.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -28,7 +29,7 @@ Board::~Board() { erase(); }
 
 void Board::erase() {
     if (lines_.empty()) return;
-    std::fprintf(stderr, "\r\033[%zuA\033[J", lines_.size());
+    write_stderr(fmt::format("\r\033[{}A\033[J", lines_.size()));
     lines_.clear();
 }
 
@@ -39,9 +40,8 @@ void Board::announce(std::string const& line) {
 void Board::complain(std::string const& line) {
     auto kept = lines_;
     erase();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    write_stderr(line + "\n");
     draw(std::move(kept));
-    std::fflush(stderr);
 }
 
 void Board::draw(std::vector<std::string> lines) {
@@ -51,11 +51,12 @@ void Board::draw(std::vector<std::string> lines) {
     // The last line tells of the whole: it stays when there are more runs than rows.
     if (lines.size() > size.rows - 1)
         lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(size.rows - 1));
+    std::string text;
     for (std::string& line : lines) {
         if (line.size() > size.columns - 1) line.resize(size.columns - 1);
-        std::fprintf(stderr, "%s\n", line.c_str());
+        text += line + "\n";
     }
-    std::fflush(stderr);
+    write_stderr(text);
     lines_ = std::move(lines);
 }
 

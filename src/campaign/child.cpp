@@ -1,6 +1,7 @@
 #include "child.h"
 
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/experiment/manifest.h>
 
 #include <lore/campaign/steps.h>
@@ -20,8 +21,7 @@
 namespace lore {
 
 pid_t start_child(std::vector<std::string> const& command, std::string const& log, int inherited) {
-    std::error_code failed;
-    std::filesystem::create_directories(std::filesystem::path{log}.parent_path(), failed);
+    make_directory(std::filesystem::path{log}.parent_path().string());
     int const output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (output < 0)
         throw Error(fmt::format("cannot write {}", log), std::strerror(errno),
@@ -47,7 +47,7 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
         ::sigprocmask(SIG_SETMASK, &none, nullptr);
         for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGCHLD, SIGPIPE})
             ::signal(signal, SIG_DFL);
-        int const nothing = ::open("/dev/null", O_RDONLY);
+        int const nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
         ::dup2(nothing, STDIN_FILENO);
         ::dup2(output, STDOUT_FILENO);
         ::dup2(output, STDERR_FILENO);

@@ -2,12 +2,12 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 #include <lore/core/whole_number.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <fstream>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -111,8 +111,7 @@ void write_choice(std::string const& path, Choice const& choice) {
 
 Choice read_choice(std::string const& path) {
     try {
-        std::ifstream file{path};
-        auto const document = nlohmann::json::parse(file);
+        auto const document = nlohmann::json::parse(read_text(path));
         Choice choice;
         for (auto const& entry : document.at("chosen"))
             choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), whole_number<int>(entry.at("run")),

@@ -4,6 +4,7 @@
 #include "plan_reading.h"
 #include "treatment_inputs.h"
 
+#include <lore/core/file.h>
 #include <lore/core/toml.h>
 #include <lore/experiment/config.h>
 
@@ -177,7 +178,8 @@ std::string CampaignPlan::config_path(Treatment const& treatment) const {
     return (std::filesystem::path{directory} / treatment.config).lexically_normal().string();
 }
 
-CampaignPlan read_campaign(std::string const& path) {
+CampaignPlan read_campaign(std::string const& named) {
+    std::string const path = current_path(named);
     TomlTable const document = TomlTable::read_file(path);
     CampaignPlan plan;
     plan.path = path;

@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/campaign/chart.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/figure/svg.h>
 
 #include <algorithm>
@@ -35,13 +36,9 @@ void check_names(CampaignPlan const& plan, Results const& results) {
 void write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     bool const has_runs = std::filesystem::exists(from.file("runs"));
     if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
-        throw Error(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
-                    "Start with 'lore-campaign run', or check --dir.");
-    std::error_code failed;
-    std::filesystem::create_directories(into.file("figures"), failed);
-    if (failed)
-        throw Error(fmt::format("cannot make the directory {}", into.file("figures")), failed.message(),
-                    "Choose another with --out.");
+        throw UsageError(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
+                         "Start with 'lore-campaign run', or check --dir.");
+    make_directory(into.file("figures"));
     if (has_runs) write_results(into, collect_results(plan, from));
     Results const results = read_results(has_runs ? into : from);
     check_names(plan, results);
@@ -55,10 +52,11 @@ void write_report(CampaignPlan const& plan, CampaignDirectory const& from, Campa
     for (std::string const figure : {"figure5", "figure6"})
         if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
     // Figures of a former report that this one does not have would pass for its own.
+    std::error_code ignored;
     for (std::string const figure : {"figure5", "figure6"})
         for (std::string const kind : {"svg", "png"})
             if (!figures.contains(figure))
-                std::filesystem::remove(into.file(fmt::format("figures/{}.{}", figure, kind)), failed);
+                std::filesystem::remove(into.file(fmt::format("figures/{}.{}", figure, kind)), ignored);
     for (auto const& [name, svg] : figures) {
         write_file_atomically(into.file(fmt::format("figures/{}.svg", name)), std::string_view{svg});
         write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});

@@ -5,12 +5,9 @@
 #include "stop_signals.h"
 #include "view.h"
 
-#include <lore/core/error.h>
+#include <lore/core/file.h>
 
 #include <chrono>
-#include <filesystem>
-
-#include <fmt/format.h>
 
 namespace lore {
 
@@ -80,11 +77,7 @@ ExitCode outcome(std::vector<Task> const& tasks) {
 }   // namespace
 
 ExitCode run_campaign(CampaignPlan const& plan, CampaignDirectory const& directory, RunnerOptions const& options) {
-    std::error_code failed;
-    std::filesystem::create_directories(directory.path(), failed);
-    if (!std::filesystem::is_directory(directory.path()))
-        throw Error(fmt::format("cannot make the directory {}", directory.path()), failed.message(),
-                    "Choose another with --dir.");
+    make_directory(directory.path());
     StopSignals const signals;
     Board board{options.quiet};
     Scheduler scheduler{plan, directory, options, board};

@@ -4,6 +4,7 @@
 
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
+#include <lore/core/file.h>
 
 #include <csignal>
 #include <filesystem>
@@ -93,7 +94,7 @@ void Scheduler::start_ready() {
 }
 
 void Scheduler::start(Task& task) {
-    task.lock = StepLock::take(directory_.lock(task.step.name));
+    task.lock = FileLock::take(directory_.lock(task.step.name));
     if (!task.lock) {
         task.phase = Phase::elsewhere;
         task.generation = last_progress(directory_.run(task.step.name)).generation;
@@ -115,7 +116,7 @@ void Scheduler::launch(Task& task) {
     auto const command = command_of(plan_, directory_, options_.launcher, task.step, choice ? &*choice : nullptr);
     std::string const product =
         task.is_run() ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
-    std::filesystem::create_directories(std::filesystem::path{product}.parent_path());
+    make_directory(std::filesystem::path{product}.parent_path().string());
     task.started_at = task.generation;
     task.pid = start_child(command, directory_.log(task.step.name), task.lock->descriptor());
     task.phase = Phase::working;
@@ -137,7 +138,7 @@ void Scheduler::choose(Task& task) {
     try {
         auto const before = recorded_choice(directory_);
         Choice const choice = choose_runs(plan_, finished, without, before ? *before : Choice{});
-        std::filesystem::create_directories(std::filesystem::path{directory_.choice()}.parent_path());
+        make_directory(std::filesystem::path{directory_.choice()}.parent_path().string());
         write_choice(directory_.choice(), choice);
         for (ChosenRun const& chosen : choice.chosen)
             board_.announce(fmt::format("{} comes from source run {} (seed {}, {} balls)", chosen.knowledge, chosen.run,

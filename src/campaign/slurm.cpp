@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 
 #include <algorithm>
 #include <array>
@@ -177,13 +178,7 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
                             "Wait for it, or cancel the jobs in slurm/jobs.txt with scancel.");
     }
     std::vector<BatchJob> const jobs = batch_jobs(plan, directory, launcher, program);
-    for (char const* const folder : {"slurm", "logs"}) {
-        std::error_code failed;
-        fs::create_directories(directory.file(folder), failed);
-        if (failed)
-            throw Error(fmt::format("cannot make the directory {}", directory.file(folder)), failed.message(),
-                        "Choose a directory that can be written.");
-    }
+    for (char const* const folder : {"slurm", "logs"}) make_directory(directory.file(folder));
     std::map<std::string, std::string> id_of_group;
     std::vector<std::string> lines;
     std::string recorded;

@@ -1,6 +1,7 @@
 #include <lore/campaign/state.h>
 
 #include <lore/archive/atomic_file.h>
+#include <lore/archive/file_lock.h>
 #include <lore/campaign/choice.h>
 #include <lore/core/error.h>
 #include <lore/core/whole_number.h>
@@ -9,17 +10,12 @@
 #include <lore/experiment/run_directory.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace lore {
 
@@ -105,7 +101,7 @@ std::optional<Choice> recorded_choice(CampaignDirectory const& directory) {
 }
 
 StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, Locks locks) {
-    bool const taken = locks == Locks::looked_at && StepLock::is_taken(directory.lock(step.name));
+    bool const taken = locks == Locks::looked_at && FileLock::is_taken(directory.lock(step.name));
     if (step.kind == StepKind::evolve) {
         Treatment const& treatment = plan.treatment(step.subject);
         return run_state(plan, directory, step, treatment, seed_of(treatment, step.run), taken);
@@ -170,47 +166,6 @@ std::optional<FailureRecord> read_failure(CampaignDirectory const& directory, St
 void clear_failure(CampaignDirectory const& directory, Step const& step) {
     std::error_code ignored;   // it may not be there
     fs::remove(directory.record(step.name), ignored);
-}
-
-std::optional<StepLock> StepLock::take(std::string const& path) {
-    std::error_code failed;
-    fs::create_directories(fs::path{path}.parent_path(), failed);
-    if (failed)
-        throw Error(fmt::format("cannot make the directory {}", fs::path{path}.parent_path().string()),
-                    failed.message(), "Choose a directory that can be written.");
-    int const descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        throw Error(fmt::format("cannot write {}", path), std::strerror(errno),
-                    "Choose a directory that can be written.");
-    struct flock whole {};
-    whole.l_type = F_WRLCK;
-    whole.l_whence = SEEK_SET;
-    if (::fcntl(descriptor, F_OFD_SETLK, &whole) == 0) return StepLock{descriptor};
-    int const reason = errno;
-    ::close(descriptor);
-    if (reason == EAGAIN || reason == EACCES) return std::nullopt;
-    throw Error(fmt::format("cannot lock {}", path), std::strerror(reason),
-                "Choose a directory on a file system with locks.");
-}
-
-bool StepLock::is_taken(std::string const& path) {
-    int const descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-    if (descriptor < 0) return false;
-    struct flock whole {};
-    whole.l_type = F_WRLCK;
-    whole.l_whence = SEEK_SET;
-    bool const taken = ::fcntl(descriptor, F_OFD_GETLK, &whole) == 0 && whole.l_type != F_UNLCK;
-    ::close(descriptor);
-    return taken;
-}
-
-StepLock::StepLock(StepLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-StepLock& StepLock::operator=(StepLock&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-}
-StepLock::~StepLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 RunProgress last_progress(std::string const& run_directory) {

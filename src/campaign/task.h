@@ -2,6 +2,7 @@
 
 #include "launcher_watch.h"
 
+#include <lore/archive/file_lock.h>
 #include <lore/campaign/state.h>
 #include <lore/campaign/steps.h>
 
@@ -37,7 +38,7 @@ struct Task {
     double seconds = 0;    ///< spent on it in all sessions
     int started_at = 0;    ///< generation at the last start: a resume that gains nothing counts as a failure
     pid_t pid = 0;         ///< of the program at work on it; 0: none
-    std::optional<StepLock> lock;
+    std::optional<FileLock> lock;
     std::optional<LauncherWatch> watch;   ///< of a run of several ranks
 
     bool is_run() const { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }

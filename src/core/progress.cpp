@@ -1,10 +1,11 @@
 #include <lore/core/progress.h>
 
+#include <lore/core/standard_streams.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <unistd.h>
 
@@ -28,7 +29,7 @@ Progress::Progress(std::string title, std::int64_t total, std::string unit, std:
       line_every_(std::max<std::int64_t>(1, line_every)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-    if (bar_open_) std::fputc('\n', stderr);
+    if (bar_open_) write_stderr("\n");
 }
 
 void Progress::start_at(std::int64_t done) {
@@ -58,8 +59,7 @@ void Progress::update(std::int64_t done, std::string_view note) {
     } else {
         line = fmt::format("{}: {}/{} {}, {}{}{}\n", title_, done, total_, unit_, time, gap, note);
     }
-    std::fputs(line.c_str(), stderr);
-    std::fflush(stderr);
+    write_stderr(line);
 }
 
 }   // namespace lore

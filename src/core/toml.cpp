@@ -1,11 +1,10 @@
 #include <lore/core/toml.h>
 
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -41,14 +40,7 @@ TomlTable TomlTable::parse(std::string_view text, std::string name) {
     }
 }
 
-TomlTable TomlTable::read_file(std::string const& path) {
-    std::ifstream file{path, std::ios::binary};
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf()))
-        throw UsageError(fmt::format("cannot read {}", path), "no such file, not readable, or empty",
-                         "Check the path.");
-    return parse(text.str(), path);
-}
+TomlTable TomlTable::read_file(std::string const& path) { return parse(read_text(path), path); }
 
 void TomlTable::fail(std::string_view key, std::string_view reason, std::string_view remedy) const {
     toml::node const* at = key.empty() ? nullptr : node_->table->get(key);
@@ -75,7 +67,9 @@ std::optional<double> TomlTable::number(std::string_view key, double least, doub
     std::optional<double> const value = node->is_number() ? node->value<double>() : std::nullopt;
     if (!value) fail(key, "a number is expected");
     if (!std::isfinite(*value)) fail(key, "the value is not finite");
-    if (*value < least || *value > most) fail(key, fmt::format("{} is outside {} .. {}", *value, least, most));
+    if (*value < least || *value > most)
+        fail(key, fmt::format("{} is outside {} .. {}", *value, least, most),
+             fmt::format("Take a number from {} to {}.", least, most));
     return value;
 }
 
@@ -84,7 +78,9 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
     if (node == nullptr) return std::nullopt;
     std::optional<std::int64_t> const value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
     if (!value) fail(key, "a whole number is expected");
-    if (*value < least || *value > most) fail(key, fmt::format("{} is outside {} .. {}", *value, least, most));
+    if (*value < least || *value > most)
+        fail(key, fmt::format("{} is outside {} .. {}", *value, least, most),
+             fmt::format("Take a number from {} to {}.", least, most));
     return value;
 }
 

@@ -2,8 +2,8 @@
 
 #include "settings.h"
 
-#include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,6 +51,16 @@ void read_settings(TomlTable const& document, std::vector<Setting> const& settin
     for (auto const& [section, table] : sections) reject(table, section);
 }
 
+/// Throws where the key of an override is the name of a section.
+void refuse_section(std::string const& label, std::string const& key, std::vector<Setting> const& settings) {
+    std::vector<std::string> keys;
+    for (Setting const& setting : settings)
+        if (!setting.section.empty() && setting.section == key) keys.push_back(setting.key);
+    if (keys.empty()) return;
+    throw UsageError(label, fmt::format("{} is a section; its keys are {}", key, fmt::join(keys, ", ")),
+                     fmt::format("Write one of them, like --set {}.{}=...", key, keys.front()));
+}
+
 /// "[section]\nkey = value" from "section.key=value".
 TomlTable document_of(std::string const& override, std::vector<Setting> const& settings) {
     std::string const label = "--set " + override;
@@ -62,6 +72,7 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
     auto const setting =
         std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.full_key() == key; });
     if (setting == settings.end()) {
+        refuse_section(label, key, settings);
         std::vector<std::string> known;
         for (Setting const& s : settings) known.push_back(s.full_key());
         auto const elsewhere =
@@ -114,7 +125,7 @@ void check(ExperimentConfig const& config, std::string const& name) {
 std::string located(std::string const& arena, std::string const& directory) {
     bool const is_path = arena.find('/') != std::string::npos || arena.ends_with(".toml");
     if (!is_path || std::filesystem::path{arena}.is_absolute()) return arena;
-    return (std::filesystem::path{directory} / arena).lexically_normal().string();
+    return current_path((std::filesystem::path{directory} / arena).lexically_normal().string());
 }
 
 }   // namespace
@@ -136,13 +147,19 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
     return config;
 }
 
+ConfigFile read_config_file(std::string const& path) {
+    std::string const current = current_path(path);
+    return {current, read_text(current)};
+}
+
+ExperimentConfig parse_config(ConfigFile const& file, std::vector<std::string> const& overrides) {
+    std::filesystem::path const path{file.path};
+    bool const has_a_place = std::filesystem::is_regular_file(path);
+    return parse_config(file.text, file.path, has_a_place ? path.parent_path().string() : "", overrides);
+}
+
 ExperimentConfig read_config(std::string const& path, std::vector<std::string> const& overrides) {
-    std::vector<std::byte> bytes;
-    try {
-        bytes = read_file(path);
-    } catch (Error const& error) { throw UsageError("no configuration", error.what(), ""); }
-    return parse_config({reinterpret_cast<char const*>(bytes.data()), bytes.size()}, path,
-                        std::filesystem::path{path}.parent_path().string(), overrides);
+    return parse_config(read_config_file(path), overrides);
 }
 
 std::string to_toml(ExperimentConfig const& config) {

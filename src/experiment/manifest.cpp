@@ -135,8 +135,12 @@ Manifest read_manifest(std::string const& path) {
 }
 
 FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as) {
-    return {role, shown_as, static_cast<std::uint64_t>(std::filesystem::file_size(path)),
-            checksum_text(checksum_of_file(path)), ""};
+    std::string const sum = checksum_text(checksum_of_file(path));   // refuses what has no size
+    return {role, shown_as, static_cast<std::uint64_t>(std::filesystem::file_size(path)), sum, ""};
+}
+
+FileRecord record_of_text(std::string const& role, std::string_view text, std::string const& shown_as) {
+    return {role, shown_as, text.size(), checksum_text(checksum(text)), ""};
 }
 
 FileRecord const* find_role(std::vector<FileRecord> const& files, std::string_view role) {

@@ -9,13 +9,13 @@
 #include <lore/archive/genome_file.h>
 #include <lore/archive/lineage_file.h>
 #include <lore/core/progress.h>
+#include <lore/core/standard_streams.h>
 #include <lore/core/stopwatch.h>
 #include <lore/experiment/run_directory.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -63,7 +63,7 @@ Error failure_in_hand(int generation, std::string const& genome_path) {
 
 /// Ends all ranks; the only way once replies are under way that nobody will take.
 [[noreturn]] void end_all(Session const& session, Error const& error) {
-    fmt::print(stderr, "lore-evolve: {}\n", error.what());
+    write_stderr(fmt::format("lore-evolve: {}\n", error.what()));
     session.abort(static_cast<int>(error.exit_code()));
 }
 
@@ -163,7 +163,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         mend_lineage(run.setup);
         return outcome(state, "");
     }
-    if (!run.setup.warning.empty()) fmt::print(stderr, "warning: {}\n", run.setup.warning);
+    if (!run.setup.warning.empty()) write_stderr(fmt::format("warning: {}\n", run.setup.warning));
 
     std::vector<double> feature_values = values_for_the_pool(run.context);
     std::vector<std::string> hosts = give_order(session, run.setup.order);
@@ -191,8 +191,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
                 stop_reason.empty() ? "done" : stop_reason);
     if (!options.quiet)
-        fmt::print(stderr, "{}",
-                   time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}));
+        write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}));
     return outcome(state, stop_reason);
 }
 

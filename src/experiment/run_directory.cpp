@@ -40,10 +40,10 @@ RunDirectory open_run(std::string const& path) {
     RunDirectory run;
     run.path = path;
     if (!std::filesystem::is_directory(path))
-        throw Error(fmt::format("no run in {}", path), "no such directory", "Check the path.");
+        throw UsageError(fmt::format("no run in {}", path), "no such directory", "Check the path.");
     if (!std::filesystem::exists(run.file(run_file::config)))
-        throw Error(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config),
-                    "Check the path.");
+        throw UsageError(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config),
+                         "Check the path.");
     run.config = read_config(run.file(run_file::config));
     run.arena = load_arena(run.config.arena, run.config.task);
     if (!std::filesystem::exists(run.file(run_file::lineage)))

@@ -32,7 +32,8 @@ std::string text_of(std::string const& path) {
 ExperimentConfig configuration_to_go_on_with(RunSetup const& setup, RunOptions const& options) {
     std::string const own = setup.file(run_file::config);
     ExperimentConfig const recorded = read_config(own);
-    ExperimentConfig wanted = read_config(options.config_path.empty() ? own : options.config_path, options.overrides);
+    ExperimentConfig wanted =
+        setup.given.path.empty() ? read_config(own, options.overrides) : parse_config(setup.given, options.overrides);
     if (recorded.evolution.use_shaping) wanted.evolution.use_shaping = true;   // --kb had set it
     if (auto const others = differing_result_settings(recorded, wanted); !others.empty())
         throw cannot_go_on(setup, " under another configuration", fmt::format("it was started with {}", text(others)),

@@ -5,31 +5,18 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/experiment/run_directory.h>
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace lore {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-void make_directory(std::string const& directory) {
-    std::error_code failed;
-    fs::create_directories(directory, failed);
-    if (failed || !fs::is_directory(directory))
-        throw Error(fmt::format("cannot make the directory {}", directory),
-                    failed ? failed.message() : "there is a file of that name", "Choose another with --out.");
-}
 
 /// A run that lost its configuration is not written over.
 void refuse_remains(RunSetup const& setup) {
@@ -45,15 +32,15 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     if (options.config_path.empty())
         throw UsageError(fmt::format("nothing to start in {}", options.directory), "no configuration was given",
                          "Name one, such as jobs/tasks/source.toml.");
-    setup.order.config = read_config(options.config_path, options.overrides);
+    setup.order.config = parse_config(setup.given, options.overrides);
     setup.order.arena_text = arena_text(setup.order.config.arena);
     if (!options.knowledge_base.empty()) setup.order.take_knowledge(options.knowledge_base);
     setup.seed = options.seed.value_or(1);
     setup.archive_all = options.archive_all;
-    setup.manifest.inputs.push_back(record_of(file_role::configuration, options.config_path, options.config_path));
+    setup.manifest.inputs.push_back(record_of_text(file_role::configuration, setup.given.text, setup.given.path));
     if (fs::exists(setup.order.config.arena))
         setup.manifest.inputs.push_back(
-            record_of(file_role::arena, setup.order.config.arena, setup.order.config.arena));
+            record_of_text(file_role::arena, setup.order.arena_text, setup.order.config.arena));
     if (!options.knowledge_base.empty())
         setup.manifest.inputs.push_back(
             record_of(file_role::knowledge, options.knowledge_base, setup.order.knowledge_path));
@@ -92,24 +79,6 @@ void settle(PreparedRun& run, RunOptions const& options) {
 
 }   // namespace
 
-DirectoryLock::DirectoryLock(std::string const& directory) {
-    std::string const path = (fs::path{directory} / run_file::lock).string();
-    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0)
-        throw Error(fmt::format("cannot write into {}", directory), std::strerror(errno),
-                    "Choose another directory with --out.");
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    int const reason = errno;
-    ::close(file_);
-    if (reason == EWOULDBLOCK)
-        throw Error(fmt::format("another process runs in {}", directory), "it holds the lock",
-                    "Wait for it, or choose another directory with --out.");
-    throw Error(fmt::format("cannot lock {}", path), std::strerror(reason),
-                "Choose a directory on another file system.");
-}
-
-DirectoryLock::~DirectoryLock() { ::close(file_); }
-
 std::string RunSetup::file(std::string_view name) const { return (fs::path{directory} / name).string(); }
 
 std::optional<FoundersOrigin> RunSetup::founders_origin() const {
@@ -122,6 +91,7 @@ PreparedRun prepare_run(RunOptions const& options) {
     PreparedRun run;
     RunSetup& setup = run.setup;
     setup.directory = options.directory;
+    if (!options.config_path.empty()) setup.given = read_config_file(options.config_path);
     bool const resumed = holds_a_run(setup);
     if (resumed && !options.resume)
         throw UsageError(fmt::format("{} already holds a run", options.directory),
@@ -133,7 +103,10 @@ PreparedRun prepare_run(RunOptions const& options) {
         settle(run, options);
     }
     make_directory(options.directory);
-    run.lock = std::make_unique<DirectoryLock>(options.directory);
+    run.lock = FileLock::take(setup.file(run_file::lock));
+    if (!run.lock)
+        throw Error(fmt::format("another process runs in {}", options.directory), "it holds the lock",
+                    "Wait for it, or choose another directory with --out.");
     if (holds_a_run(setup) != resumed)
         throw Error(fmt::format("another process runs in {}", options.directory), "it started there at this moment",
                     "Wait for it, or choose another directory with --out.");

@@ -3,6 +3,7 @@
 #include "work_order.h"
 
 #include <lore/archive/checkpoint.h>
+#include <lore/archive/file_lock.h>
 #include <lore/archive/lineage_file.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/run.h>
@@ -12,21 +13,10 @@
 
 namespace lore {
 
-/// Holds a run's directory against other processes until it is destroyed. Throws Error if another one has it.
-class DirectoryLock {
-public:
-    explicit DirectoryLock(std::string const& directory);
-    ~DirectoryLock();
-    DirectoryLock(DirectoryLock const&) = delete;
-    DirectoryLock& operator=(DirectoryLock const&) = delete;
-
-private:
-    int file_ = -1;
-};
-
 /// A run about to start or to go on: options, configuration and what the directory holds, reconciled.
 struct RunSetup {
     std::string directory;
+    ConfigFile given;   ///< on the command line; without a path: none
     WorkOrder order;
     std::uint64_t seed = 1;
     std::uint64_t digest = 0;         ///< of all that results depend on
@@ -43,7 +33,7 @@ struct RunSetup {
 };
 
 struct PreparedRun {
-    std::unique_ptr<DirectoryLock> lock;
+    std::optional<FileLock> lock;   ///< of the directory, against other processes
     RunSetup setup;
     EvaluationContext context;   ///< of rank 0
 };

@@ -187,7 +187,7 @@ TEST_F(LoreKb, derives_and_multiplies) {
 
 TEST_F(LoreKb, refuses_in_one_line_what_it_cannot_do) {
     expect_refusal("", 2, "subcommand");
-    expect_refusal("build nowhere --out x.lorekb", 1, "nowhere");
+    expect_refusal("build nowhere --out x.lorekb", 2, "nowhere");
     expect_refusal("build run", 2, "--out");
     expect_refusal("build run --out missing/x.lorekb", 2, "missing");
     expect_refusal("build run --index fast --out x.lorekb", 2, "exact and flann");

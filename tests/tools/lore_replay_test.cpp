@@ -74,8 +74,8 @@ TEST_F(LoreReplay, refuses_a_wrong_command_line) {
     expect_refusal("--actions actions.csv --task source --kb kb.lorekb --out never", 2, "go with a run");
     expect_refusal("run --task source --out never", 2, "knows its own");
     expect_refusal("run --individual 77.1 --out never", 2, "not in");
-    expect_refusal("run --kb none.lorekb --out never", 1, "none.lorekb");
-    expect_refusal("nowhere --out never", 1, "no run in nowhere");
+    expect_refusal("run --kb none.lorekb --out never", 2, "none.lorekb");
+    expect_refusal("nowhere --out never", 2, "no run in nowhere");
     expect_refusal("run --out never --verbose", 2, "--verbose");
 }
 
@@ -86,7 +86,7 @@ TEST_F(LoreReplay, refuses_wrong_files) {
     expect_refusal("--actions short.csv --task source --out never", 1, "no column 'a2'");
     expect_refusal("--actions nan.csv --task source --out never", 1, "line 2, column a1");
     expect_refusal("--actions few.csv --task source --out never", 1, "2 fields where the header has 3");
-    expect_refusal("--actions none.csv --task source --out never", 2, "no such file");
+    expect_refusal("--actions none.csv --task source --out never", 2, "No such file");
     expect_refusal("--follow nan.csv --task source --out never", 1, "no column 'step'");
 }
 

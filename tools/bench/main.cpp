@@ -6,6 +6,7 @@
 //
 // The last writes the knowledge base that the benchmarks ask, for whole runs with one of a known size;
 // --individuals=N takes it from N individuals instead of 600. Other options are those of Google Benchmark.
+#include "../main.h"
 #include "learned_base.h"
 
 #include <lore/archive/knowledge_file.h>
@@ -44,8 +45,6 @@ int count_in(std::string_view text) {
     return count;
 }
 
-}   // namespace
-
 constexpr char help_text[] = R"(Benchmarks of every hot path.
 
 Examples:
@@ -60,35 +59,36 @@ Options:
 
 )";
 
-int main(int argc, char** argv) {
-    try {
-        for (int i = 1; i < argc; ++i) {
-            std::string_view const argument{argv[i]};
-            if (argument == "--version") {
-                fmt::print("{}\n", lore::version_text("lore-bench"));
-                return 0;
-            }
-            if (argument == "--help") {
-                fmt::print("{}", help_text);
-                std::fflush(stdout);
-            }
-        }
-        std::string_view const path = take_option("--write_knowledge=", argc, argv);
-        std::string_view const individuals = take_option("--individuals=", argc, argv);
-        if (!path.empty()) {
-            int const count = individuals.empty() ? lore::usual_teachers : count_in(individuals);
-            lore::KnowledgeBase const base = lore::build_base(count, lore::make_exact_index({}));
-            lore::write_knowledge_base(std::string{path}, base);
-            fmt::print("wrote {}: {} features from {} individuals\n", path, base.size(), base.provenance().individuals);
+int run(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        std::string_view const argument{argv[i]};
+        if (argument == "--version") {
+            fmt::print("{}\n", lore::version_text("lore-bench"));
             return 0;
         }
-        benchmark::Initialize(&argc, argv);
-        if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-    } catch (lore::Error const& error) {
-        fmt::print(stderr, "lore-bench: {}\n", error.what());
-        return static_cast<int>(error.exit_code());
+        if (argument == "--help") {
+            fmt::print("{}", help_text);
+            std::fflush(stdout);
+        }
     }
+    std::string_view const path = take_option("--write_knowledge=", argc, argv);
+    std::string_view const individuals = take_option("--individuals=", argc, argv);
+    if (!path.empty()) {
+        int const count = individuals.empty() ? lore::usual_teachers : count_in(individuals);
+        lore::KnowledgeBase const base = lore::build_base(count, lore::make_exact_index({}));
+        lore::write_knowledge_base(std::string{path}, base);
+        fmt::print("wrote {}: {} features from {} individuals\n", path, base.size(), base.provenance().individuals);
+        return 0;
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
     return 0;
+}
+
+}   // namespace
+
+int main(int argc, char** argv) {
+    return lore::run_program("lore-bench", [&] { return run(argc, argv); });
 }

@@ -1,11 +1,12 @@
 #include "subcommand.h"
 
+#include <lore/core/input_file.h>
 #include <lore/statistics/bootstrap.h>
 #include <lore/statistics/mann_whitney.h>
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 namespace lore::campaign_program {
 
@@ -19,9 +20,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 /// One number a line; empty lines do not count.
 std::vector<double> read_sample(std::string const& path) {
-    std::ifstream file{path};
-    if (!file)
-        throw UsageError(fmt::format("cannot read {}", path), "no such file, or not readable", "Check the path.");
+    std::istringstream file{read_text(path)};
     std::vector<double> sample;
     int number = 0;
     for (std::string line; std::getline(file, line);) {

@@ -30,7 +30,7 @@ constexpr char const* examples =
     "  lore-kb clone kb1.lorekb --out founders.lore                  for lore-evolve --founders founders.lore\n"
     "  lore-kb verify runs/s1/lineage.lore\n"
     "'lore-kb COMMAND --help' has the options of a command.\n"
-    "Exit codes: 0 done, 2 usage or configuration, 1 any other failure.";
+    "Exit codes: 0 done, 2 usage, configuration or the name of an input, 1 any other failure.";
 
 int run(int argc, char** argv) {
     kb::Program program;

@@ -20,7 +20,7 @@ void write_file_atomically(std::string const& path, BytePieces content);
 /// content is on the disk whole; killed at the worst moment, a process leaves `former` alone, for lack of a `path`.
 void replace_file(std::string const& path, std::string const& former, std::span<std::byte const> content);
 
-/// A whole file. Throws Error (missing, unreadable, a directory).
+/// A whole file, as read_bytes reads it: in bounds, and without waiting for ever. Throws Error.
 std::vector<std::byte> read_file(std::string const& path);
 
 /// Temporary files that a killed process left in `directory` are removed; no other process may be writing there.

@@ -39,25 +39,6 @@ void write_failure(CampaignDirectory const&, Step const&, FailureRecord const&);
 std::optional<FailureRecord> read_failure(CampaignDirectory const&, Step const&);
 void clear_failure(CampaignDirectory const&, Step const&);
 
-/// The right to work on a step: one process of all that share the directory has it at a time.
-///
-/// A lock of the open file (Linux's OFD locks), so that a started program can inherit it: if lore-campaign is killed
-/// while the program goes on, the step stays taken until that ends too.
-class StepLock {
-public:
-    /// Nothing if somebody else has it. Throws Error where the file cannot be made.
-    static std::optional<StepLock> take(std::string const& path);
-    static bool is_taken(std::string const& path);
-    StepLock(StepLock&&) noexcept;
-    StepLock& operator=(StepLock&&) noexcept;
-    ~StepLock();
-    int descriptor() const { return descriptor_; }
-
-private:
-    explicit StepLock(int descriptor) : descriptor_(descriptor) {}
-    int descriptor_;
-};
-
 /// The last complete line of a run's progress.csv; all 0 if there is none.
 struct RunProgress {
     int generation = 0;

@@ -28,6 +28,15 @@ struct ExperimentConfig {
 /// Reads jobs/*.toml; `overrides` are "section.key=value". Unknown keys are errors that name the nearest valid one.
 /// A string's quotes and a list's brackets may be left out in an override, as a shell would eat them anyway.
 ExperimentConfig read_config(std::string const& path, std::vector<std::string> const& overrides = {});
+/// A configuration file, read once, since it may be a pipe: what is recorded and what is run are the same bytes.
+struct ConfigFile {
+    std::string path;   ///< where it was read: the new place of one that has moved; empty: none was given
+    std::string text;
+};
+/// Throws UsageError: missing, a directory, not readable, without an end.
+ConfigFile read_config_file(std::string const& path);
+/// Relative paths start where the file lies; in a pipe, in the working directory.
+ExperimentConfig parse_config(ConfigFile const&, std::vector<std::string> const& overrides = {});
 /// The same from text; `name` is what errors call it, and relative paths start at `directory`.
 ExperimentConfig parse_config(std::string_view text, std::string const& name, std::string const& directory,
                               std::vector<std::string> const& overrides = {});

@@ -60,7 +60,10 @@ void write_manifest(std::string const& path, Manifest const&);
 /// Throws Error: missing, not JSON, or a field missing or of another type.
 Manifest read_manifest(std::string const& path);
 
+/// Throws Error: missing, or no regular file.
 FileRecord record_of(std::string const& role, std::string const& path, std::string const& shown_as);
+/// Of a file that was read before, since it may be a pipe.
+FileRecord record_of_text(std::string const& role, std::string_view text, std::string const& shown_as);
 /// The first with that role, or null.
 FileRecord const* find_role(std::vector<FileRecord> const&, std::string_view role);
 /// The first with that path, or null.

@@ -326,7 +326,7 @@ TEST(KnowledgeBase, that_does_not_fit_is_refused_with_the_reason) {
     };
     for (Case const& one : {Case{"long", 2, "its windows have 25 steps, knowledge.window_length is 20"},
                             Case{"loose", 2, "its threshold is 2.5"}, Case{"foreign", 1, "it is not a file of Lore"},
-                            Case{"missing", 1, "No such file"}}) {
+                            Case{"missing", 2, "No such file"}}) {
         for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)}) {
             Refusal const said =
                 refusal(scratch, launcher + evolve(config, scratch.file("run"), {"--kb", scratch.file(one.file)}));

@@ -39,6 +39,12 @@ TEST_F(Campaign, gives_treatments_the_common_values_and_their_own) {
     EXPECT_EQ(seed_of(campaign.source, 4), 4u);
 }
 
+TEST_F(Campaign, is_found_where_it_has_moved) {
+    CampaignPlan const campaign = read_campaign(LORE_SOURCE_DIR "/jobs/small.toml");
+    EXPECT_EQ(campaign.path, LORE_SOURCE_DIR "/jobs/campaigns/small.toml");
+    EXPECT_EQ(campaign.config_path(campaign.source), LORE_SOURCE_DIR "/jobs/tasks/source.toml");
+}
+
 TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     CampaignPlan const paper = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/paper.toml");
     EXPECT_EQ(paper.source.runs, 30);

@@ -2,6 +2,8 @@
 
 #include "campaign_fixture.h"
 
+#include <lore/archive/file_lock.h>
+
 #include <gtest/gtest.h>
 
 using namespace lore;
@@ -33,9 +35,9 @@ TEST_F(State, of_a_run_with_another_seed_is_failed) {
 }
 
 TEST_F(State, of_a_step_whose_lock_is_held_is_running) {
-    auto lock = StepLock::take(directory().lock("none/001"));
+    auto lock = FileLock::take(directory().lock("none/001"));
     ASSERT_TRUE(lock);
-    EXPECT_FALSE(StepLock::take(directory().lock("none/001"))) << "one at a time";
+    EXPECT_FALSE(FileLock::take(directory().lock("none/001"))) << "one at a time";
     EXPECT_EQ(state("none/001").status, StepStatus::running);
     lock.reset();
     EXPECT_EQ(state("none/001").status, StepStatus::missing);

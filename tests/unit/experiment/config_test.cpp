@@ -87,13 +87,18 @@ TEST(Config, names_the_line_and_the_nearest_key_of_a_mistyped_one) {
               "--set generations=5 (unknown key). Did you mean 'evolution.generations'?");
 }
 
+TEST(Config, names_the_keys_of_a_section_that_is_set_as_one) {
+    EXPECT_EQ(complaint("", {"episode=3"}), "--set episode=3 (episode is a section; its keys are steps, "
+                                            "stop_when_still). Write one of them, like --set episode.steps=...");
+}
+
 TEST(Config, refuses_values_of_another_type_or_out_of_range) {
     EXPECT_EQ(complaint("[evolution]\npopulation = 1\n"),
-              "a.toml, line 2: evolution.population (1 is outside 2 .. 100000).");
+              "a.toml, line 2: evolution.population (1 is outside 2 .. 100000). Take a number from 2 to 100000.");
     EXPECT_EQ(complaint("[evolution]\npopulation = \"many\"\n"),
               "a.toml, line 2: evolution.population (a whole number is expected).");
     EXPECT_EQ(complaint("[mutation]\nweight_probability = 1.5\n"),
-              "a.toml, line 2: mutation.weight_probability (1.5 is outside 0 .. 1).");
+              "a.toml, line 2: mutation.weight_probability (1.5 is outside 0 .. 1). Take a number from 0 to 1.");
     EXPECT_EQ(complaint("[mutation]\nweight_probability = nan\n"),
               "a.toml, line 2: mutation.weight_probability (the value is not finite).");
     for (char const* const bad :
@@ -131,6 +136,18 @@ TEST(Config, that_cannot_be_read_is_an_error_of_usage) {
     Scratch const scratch;
     EXPECT_THROW(read_config(scratch.file("missing.toml")), UsageError);
     EXPECT_THROW(read_config(scratch.path()), UsageError);
+}
+
+TEST(Config, and_its_arena_are_found_where_they_have_moved) {
+    Scratch const scratch;
+    std::filesystem::create_directories(scratch.file("jobs/tasks/arenas"));
+    write_file_atomically(scratch.file("jobs/tasks/arenas/room.toml"), "");
+    write_file_atomically(scratch.file("jobs/tasks/mine.toml"), "arena = \"arenas/room.toml\"");
+    ConfigFile const moved = read_config_file(scratch.file("jobs/mine.toml"));
+    EXPECT_EQ(moved.path, scratch.file("jobs/tasks/mine.toml"));
+    EXPECT_EQ(parse_config(moved).arena, scratch.file("jobs/tasks/arenas/room.toml"));
+    write_file_atomically(scratch.file("jobs/own.toml"), "arena = \"arenas/room.toml\"");
+    EXPECT_EQ(read_config(scratch.file("jobs/own.toml")).arena, scratch.file("jobs/tasks/arenas/room.toml"));
 }
 
 TEST(Config, files_of_the_project_are_the_paper_s_runs) {

@@ -1,0 +1,68 @@
+#include <lore/core/file.h>
+
+#include <lore/core/standard_streams.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace lore {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string_view remedy_for(int error_number) {
+    switch (error_number) {
+    case ENOSPC:
+    case EDQUOT: return "Free some space and run again.";
+    case EFBIG: return "Raise the limit on file sizes (ulimit -f) and run again.";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "Choose a place where you may write, or change its permissions.";
+    case ENOENT:
+    case ENOTDIR: return "Check the path.";
+    default: return "Check the disk.";
+    }
+}
+
+}   // namespace
+
+bool FileDescriptor::close() { return number_ < 0 || ::close(release()) == 0; }
+
+Error file_error(std::string_view verb, std::string const& path, int error_number) {
+    return Error(fmt::format("cannot {} {}", verb, path), std::strerror(error_number), remedy_for(error_number));
+}
+
+void make_directory(std::string const& path) {
+    std::error_code failed;
+    fs::create_directories(path, failed);
+    if (failed || !fs::is_directory(path, failed))
+        throw Error(fmt::format("cannot make the directory {}", path),
+                    failed ? failed.message() : "there is a file of that name", "Choose another place for it.");
+}
+
+std::string current_path(std::string const& path) {
+    fs::path const former{path}, folder = former.parent_path(), name = former.filename();
+    std::error_code ignored;
+    if (former.extension() != ".toml" || fs::exists(former, ignored)) return path;
+    std::vector<fs::path> found;
+    for (fs::path const& place : {folder / "tasks" / name, folder / "campaigns" / name})
+        if (fs::is_regular_file(place, ignored)) found.push_back(place);
+    if (fs::path const place = folder.parent_path() / "tasks" / "arenas" / name;
+        folder.filename() == "arenas" && fs::is_regular_file(place, ignored))
+        found.push_back(place);
+    if (found.size() != 1) return path;
+    static std::set<std::string> told;
+    if (told.insert(path).second)
+        write_stderr(fmt::format("{} has moved to {}; the old name works in this version only.\n", path,
+                                 found.front().string()));
+    return found.front().string();
+}
+
+}   // namespace lore
