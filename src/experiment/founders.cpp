@@ -47,10 +47,11 @@ FileRecord founders_record(std::string const& from) {
     bool const is_run = std::filesystem::is_directory(from);
     std::string const path = founders_path(from);
     if (!std::filesystem::exists(path))
-        throw Error(fmt::format("no founders in {}", from),
-                    is_run ? fmt::format("there is no {}, which is written when a run stops or ends", run_file::lineage)
-                           : std::string{"no such file"},
-                    "Give the directory of a finished run, or a file that 'lore-kb clone' wrote.");
+        throw UsageError(
+            fmt::format("no founders in {}", from),
+            is_run ? fmt::format("there is no {}, which is written when a run stops or ends", run_file::lineage)
+                   : std::string{"no such file"},
+            "Give the directory of a finished run, or a file that 'lore-kb clone' wrote.");
     FileRecord record = record_of(file_role::founders, path, path);
     record.kind = is_run ? "last population of a run" : is_knowledge_base(path) ? clones : read_founders(path).kind;
     return record;

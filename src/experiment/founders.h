@@ -13,7 +13,7 @@ std::string absolute_path(std::string const& path);
 /// The file behind the setting founders.from: the lineage.lore of a run's directory, or the founders file or knowledge
 /// base itself.
 std::string founders_path(std::string const& from);
-/// That file with checksum and kind. Throws Error: there is none.
+/// That file with checksum and kind. Throws UsageError: there is none.
 FileRecord founders_record(std::string const& from);
 
 /// The genomes that founders come from: the last population of a run in the order in which selection left it

@@ -113,7 +113,7 @@ TEST_F(LoreKb, clones_founders_and_says_how_well_they_fit) {
 }
 
 TEST_F(LoreKb, refuses_clones_that_cannot_be) {
-    expect_refusal("clone missing.lorekb --out never", 1, "missing.lorekb");
+    expect_refusal("clone missing.lorekb --out never", 2, "missing.lorekb");
     expect_done("build run --out kb.lorekb -q");
     expect_refusal("clone kb.lorekb --count 0 --out never", 2, "--count");
     expect_refusal("clone kb.lorekb --hidden 65 --out never", 2, "--hidden");

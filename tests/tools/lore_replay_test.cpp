@@ -93,8 +93,8 @@ TEST_F(LoreReplay, refuses_wrong_files) {
 TEST_F(LoreReplay, refuses_a_run_whose_archive_tells_another_story) {
     test::write_small_run(scratch.file("run"));
     Population impostors;
-    impostors.members.push_back(
-        {std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99}), nullptr, 0, {}, 0});
+    impostors.members.emplace_back().birth =
+        std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99});
     write_lineage(scratch.file("run/lineage.lore"), impostors);
     expect_refusal("run --out never", 1, "does not repeat");
 }

@@ -13,7 +13,7 @@ namespace lore {
 /// order and with those that are binary: controllers of another robot are refused.
 struct FoundersFile {
     std::string kind;     ///< "clones of a knowledge base"
-    std::string origin;   ///< how they were made: a JSON object (docs/formats.md)
+    std::string origin;   ///< how they were made: a JSON object (docs/manual/formats.md)
     std::vector<Genome> genomes;
 };
 

@@ -10,7 +10,7 @@ namespace lore {
 /// goal-oriented fitness"): sensors, then effectors, all values in [0, 1].
 ///
 /// The order is the order of the columns in trace.csv, of a window's channels and of the network's inputs and outputs.
-/// A new channel is a line here and one in the table below (docs/extending.md).
+/// A new channel is a line here and one in the table below (docs/manual/extending.md).
 enum class Channel : std::uint8_t {
     range_right,
     range_left,

@@ -10,7 +10,7 @@
 
 namespace lore {
 
-/// How founders are cloned from a knowledge base (docs/model.md, "Founders cloned from knowledge").
+/// How founders are cloned from a knowledge base (docs/design/model.md, "Founders cloned from knowledge").
 struct CloneConfig {
     int count = 200;     ///< founders
     int windows = 400;   ///< drawn for each founder, with replacement: 8000 pairs of 20 steps each

@@ -60,6 +60,19 @@ TEST_F(Founders, give_the_same_run_on_any_number_of_ranks_and_under_any_spelling
     EXPECT_THAT(told.out(), HasSubstr("founders from last population of a run (" + source + "/lineage.lore"));
 }
 
+TEST_F(Founders, of_a_knowledge_base_are_cloned_by_the_seed_of_the_run) {
+    std::string const by_hand = scratch.file("by_hand.lore");
+    expect_done({program("lore-kb"), "clone", base, "--count", "10", "--seed", "3", "--out", by_hand, "-q"});
+    std::string const set = "evolution.population=10";
+    EXPECT_EQ(signature_of("a", {"--founders", base, "--seed", "3", "--set", set}),
+              signature_of("b", {"--founders", by_hand, "--seed", "3", "--set", set}))
+        << "as many clones as survivors";
+    EXPECT_NE(signature_of("c", {"--founders", base, "--seed", "4", "--set", set}),
+              signature_of("d", {"--founders", by_hand, "--seed", "4", "--set", set}));
+    EXPECT_EQ(signature_of("e", {"--founders", base, "--seed", "3", "--set", set}, 2),
+              signature_of("b2", {"--founders", by_hand, "--seed", "3", "--set", set}));
+}
+
 TEST_F(Founders, are_needed_no_more_once_generation_0_is_past) {
     std::string const whole = scratch.file("whole"), stopped = scratch.file("stopped");
     std::string const expected = signature_of("whole", {"--founders", clones});
@@ -101,9 +114,8 @@ TEST_F(Founders, that_do_not_fit_are_refused_and_nothing_is_written) {
     expect_refusal(evolve(config, never, {"--founders", deep}), 2, "261 connections, limits.max_edges is 250");
     expect_refusal(evolve(config, never, {"--founders", deep, "--set", "limits.max_hidden=14"}), 2,
                    "15 hidden neurons, limits.max_hidden is 14");
-    expect_refusal(evolve(config, never, {"--founders", base}), 1, "it is a knowledge base, not a founders file");
-    expect_refusal(evolve(config, never, {"--founders", scratch.file("missing")}), 1, "no such file");
-    expect_refusal(evolve(config, never, {"--founders", scratch.path()}), 1, "there is no lineage.lore");
+    expect_refusal(evolve(config, never, {"--founders", scratch.file("missing")}), 2, "no such file");
+    expect_refusal(evolve(config, never, {"--founders", scratch.path()}), 2, "there is no lineage.lore");
     EXPECT_FALSE(exists(never));
     signature_of("deep", {"--founders", deep, "--set", "limits.max_edges=300"});
 }

@@ -185,9 +185,9 @@ TEST_F(Runner, kills_a_launcher_that_outlives_its_ranks_and_makes_the_run_again)
                       "hung=$(dirname $0)/hung-$(echo \"$*\" | cksum | cut -d' ' -f1)\n"
                       "\"$@\" & rank=$!\n"
                       "if [ -e \"$hung\" ]; then wait $rank; exit $?; fi\n"
-                      "touch \"$hung\"; sleep 0.2; kill -9 $rank; exec sleep 600\n");
+                      "touch \"$hung\"; sleep 2; kill -9 $rank; exec sleep 600\n");
     std::filesystem::permissions(scratch.file("launcher"), std::filesystem::perms::owner_all);
-    ::setenv("LORE_FAKE_MS", "20", 1);
+    ::setenv("LORE_FAKE_MS", "200", 1);
     RunnerOptions launched = options();
     launched.launcher.ranks = 2;
     launched.launcher.launch = scratch.file("launcher");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adds a sensor and a behavioral distance to copies of Lore's sources, as docs/extending.md says.
+"""Adds a sensor and a behavioral distance to copies of Lore's sources, as docs/manual/extending.md says.
 
     tests/unit/extension/extend.py SOURCE_DIR OUT_DIR
     tests/unit/extension/extend.py --files
@@ -80,7 +80,7 @@ for file, changes in CHANGES.items():
     for place, replacement in changes:
         if text.count(place) != 1:
             sys.exit(f"{file} has {text.count(place)} places {place!r}, not one. "
-                     "Let this script and docs/extending.md follow the code.")
+                     "Let this script and docs/manual/extending.md follow the code.")
         text = text.replace(place, replacement)
     (out / file).parent.mkdir(parents=True, exist_ok=True)
     (out / file).write_text(text)

@@ -88,7 +88,8 @@ TEST(Shaper, counts_the_nearest_feature_of_a_window_though_another_within_the_th
     Shaper const shaper{base_of({{0b001, 0.5f}, {0b110, 0.5f}}, {1.0, 9.0})};
     Trace const trace = trace_of({{0b000, 0.5f}});
     EXPECT_EQ(shaper.shaping(windows_of(trace, 1)), 1.0);
-    ShapingState state{0.5};
+    ShapingState state;
+    state.best = 0.5;
     shaper.reader().see(windows_of(trace, 1)[0], state);
     EXPECT_EQ(state.best, 1.0);
 }
