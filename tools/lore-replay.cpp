@@ -19,7 +19,7 @@
 #include <lore/experiment/version.h>
 #include <lore/figure/svg.h>
 #include <lore/figure/trajectory.h>
-#include <lore/knowledge/shaping.h>
+#include <lore/knowledge/product.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,13 +50,12 @@ struct WindowValues {
 WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper> const& shapers) {
     WindowValues found;
     std::vector<Window> const windows = windows_of(trace, window_length);
-    found.values.assign(windows.size(), 1.0);
-    for (Shaper const& shaper : shapers)
-        for (std::size_t i = 0; i < windows.size(); ++i) {
-            Match const match = shaper.match(windows[i]);
-            found.values[i] *=
-                match.found() ? shaper.base().value(match.feature) : std::numeric_limits<double>::quiet_NaN();
-        }
+    std::vector<std::vector<double>> values;
+    for (Shaper const& shaper : shapers) values.push_back(values_of(shaper, windows));
+    found.values = product_of(values);
+    for (std::vector<double> const& of_base : values)
+        for (std::size_t i = 0; i < windows.size(); ++i)
+            if (of_base[i] == no_feature_value) found.values[i] = std::numeric_limits<double>::quiet_NaN();
     if (shapers.size() == 1) {
         auto const values = shapers.front().base().values();
         auto const [least, most] = std::minmax_element(values.begin(), values.end());
@@ -126,7 +125,7 @@ void replay_run(Arguments const& arguments) {
         picture.not_found = values.not_found;
         picture.value_label = values.label;
     }
-    std::string const svg = draw_trajectory(run.arena, picture);
+    std::string const svg = draw_trajectory(scene_of(run.arena), picture);
 
     make_directory(arguments.out);
     std::filesystem::path const out{arguments.out};

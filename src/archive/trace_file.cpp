@@ -1,12 +1,10 @@
 #include <lore/archive/trace_file.h>
 
+#include <lore/core/csv.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <new>
@@ -61,91 +59,13 @@ std::string read_trace_text(std::string const& path) {
     return text.starts_with(gzip_mark) ? inflated(text, path) : text;
 }
 
-/// A CSV text, line by line and field by field; everything wrong with it becomes an Error that names the line.
-class CsvReader {
-public:
-    CsvReader(CsvReader const&) = delete;   // its views look into its own text
-    CsvReader& operator=(CsvReader const&) = delete;
-    explicit CsvReader(std::string const& path) : path_(path), text_(read_trace_text(path)), rest_(text_) {
-        if (!next_line()) fail_file("it is empty");
-        names_ = fields_;
-    }
+constexpr std::string_view remedy = "Compare with the columns in docs/manual/formats.md.";
 
-    /// Index of the column; throws if it is missing or there twice.
-    std::size_t column(std::string_view name) const {
-        auto const found = std::find(names_.begin(), names_.end(), name);
-        if (found == names_.end()) {
-            std::string const meant = nearest_word(name, names_.data(), names_.size());
-            fail_file(fmt::format("the header has no column '{}'{}", name,
-                                  meant.empty() ? "" : fmt::format(", only '{}'", meant)));
-        }
-        if (std::find(found + 1, names_.end(), name) != names_.end())
-            fail_file(fmt::format("two columns are called '{}'", name));
-        return static_cast<std::size_t>(found - names_.begin());
-    }
-
-    /// Goes on to the next row; false at the end of the file. Empty lines do not count.
-    bool next_row() {
-        do {
-            if (!next_line()) return false;
-        } while (fields_.size() == 1 && fields_[0].empty());
-        if (fields_.size() != names_.size())
-            fail("", fmt::format("{} fields where the header has {}", fields_.size(), names_.size()));
-        return true;
-    }
-
-    template <class Number>
-    Number number(std::size_t column, Number least, Number most) const {
-        std::string_view const field = fields_[column];
-        Number value{};
-        auto const [end, failed] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (failed != std::errc{} || end != field.data() + field.size())
-            fail(names_[column], fmt::format("'{}' is no {}", field.substr(0, 30), kind<Number>()));
-        if (!(value >= least && value <= most))
-            fail(names_[column], fmt::format("{} is outside {} .. {}", field.substr(0, 30), least, most));
-        return value;
-    }
-
-    [[noreturn]] void fail_file(std::string_view reason) const {
-        throw Error(fmt::format("cannot use {}", path_), reason, "Compare with the columns in docs/manual/formats.md.");
-    }
-
-private:
-    template <class Number>
-    static constexpr std::string_view kind() {
-        return std::is_integral_v<Number> ? "whole number" : "number";
-    }
-
-    [[noreturn]] void fail(std::string_view column, std::string_view reason) const {
-        throw Error(fmt::format("cannot use {}, line {}{}{}", path_, line_, column.empty() ? "" : ", column ", column),
-                    reason, "Mend the file.");
-    }
-
-    bool next_line() {
-        if (rest_.empty()) return false;
-        ++line_;
-        std::size_t const end = std::min(rest_.find('\n'), rest_.size());
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        fields_.clear();
-        while (true) {
-            std::size_t const comma = std::min(line.find(','), line.size());
-            std::string_view field = line.substr(0, comma);
-            while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
-            while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
-            fields_.push_back(field);
-            if (comma == line.size()) break;
-            line.remove_prefix(comma + 1);
-        }
-        return true;
-    }
-
-    std::string path_, text_;
-    std::string_view rest_;
-    std::vector<std::string_view> names_, fields_;
-    int line_ = 0;
-};
+CsvTable read_table(std::string const& path) {
+    CsvTable table{path, read_trace_text(path), remedy};
+    if (table.rows() == 0) table.refuse("it has a header but no row");
+    return table;
+}
 
 constexpr float whole_turn = 6.2831855f;
 constexpr float largest_sensor = 1e6f;   // other simulators' range sensors leave [0, 1] by a little
@@ -176,7 +96,7 @@ std::string trace_csv(std::vector<StepRecord> const& rows) {
 }
 
 std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& arena) {
-    CsvReader csv{path};
+    CsvTable const csv = read_table(path);
     std::size_t const step = csv.column("step"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
     std::size_t const carrying = csv.column("carrying"), door_open = csv.column("door_open"),
                       balls = csv.column("balls_mask"), collected = csv.column("collected"),
@@ -189,37 +109,35 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
     int const all_balls = (1 << arena.task.ball_positions.size()) - 1;
 
     std::vector<StepRecord> rows;
-    while (csv.next_row()) {
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
         StepRecord row;
-        row.step = csv.number(step, 0, largest_count);
-        row.pose = {csv.number(x, 0.0f, arena.width), csv.number(y, 0.0f, arena.height),
-                    csv.number(theta, -whole_turn, whole_turn)};
+        row.step = csv.number(r, step, 0, largest_count);
+        row.pose = {csv.number(r, x, 0.0f, arena.width), csv.number(r, y, 0.0f, arena.height),
+                    csv.number(r, theta, -whole_turn, whole_turn)};
         for (std::size_t i = 0; i < sensors.size(); ++i)
-            row.sensors[i] = csv.number(sensors[i], -largest_sensor, largest_sensor);
-        for (std::size_t i = 0; i < effectors.size(); ++i) row.effectors[i] = csv.number(effectors[i], 0.0f, 1.0f);
-        row.carrying = csv.number(carrying, 0, 1) != 0;
-        row.door_open = csv.number(door_open, 0, 1) != 0;
-        row.balls = static_cast<std::uint16_t>(csv.number(balls, 0, all_balls));
-        row.collected = csv.number(collected, 0, largest_count);
-        row.switch_lit = csv.number(switch_on, 0, 1) != 0;
-        row.switch_timer = csv.number(switch_timer, 0, int{std::numeric_limits<std::int16_t>::max()});
-        row.next = {csv.number(x_next, 0.0f, arena.width), csv.number(y_next, 0.0f, arena.height),
-                    csv.number(theta_next, -whole_turn, whole_turn)};
+            row.sensors[i] = csv.number(r, sensors[i], -largest_sensor, largest_sensor);
+        for (std::size_t i = 0; i < effectors.size(); ++i) row.effectors[i] = csv.number(r, effectors[i], 0.0f, 1.0f);
+        row.carrying = csv.number(r, carrying, 0, 1) != 0;
+        row.door_open = csv.number(r, door_open, 0, 1) != 0;
+        row.balls = static_cast<std::uint16_t>(csv.number(r, balls, 0, all_balls));
+        row.collected = csv.number(r, collected, 0, largest_count);
+        row.switch_lit = csv.number(r, switch_on, 0, 1) != 0;
+        row.switch_timer = csv.number(r, switch_timer, 0, int{std::numeric_limits<std::int16_t>::max()});
+        row.next = {csv.number(r, x_next, 0.0f, arena.width), csv.number(r, y_next, 0.0f, arena.height),
+                    csv.number(r, theta_next, -whole_turn, whole_turn)};
         rows.push_back(row);
     }
-    if (rows.empty()) csv.fail_file("it has a header but no row");
     return rows;
 }
 
 std::vector<Effectors> read_actions_csv(std::string const& path) {
-    CsvReader csv{path};
-    auto const columns = effector_columns(csv);
+    CsvTable const csv = read_table(path);
+    std::array<std::size_t, effector_count> const columns{csv.column("a0"), csv.column("a1"), csv.column("a2")};
     std::vector<Effectors> actions;
-    while (csv.next_row()) {
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
         Effectors& action = actions.emplace_back();
-        for (std::size_t i = 0; i < columns.size(); ++i) action[i] = csv.number(columns[i], 0.0f, 1.0f);
+        for (std::size_t i = 0; i < columns.size(); ++i) action[i] = csv.number(r, columns[i], 0.0f, 1.0f);
     }
-    if (actions.empty()) csv.fail_file("it has a header but no row");
     return actions;
 }
 

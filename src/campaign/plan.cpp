@@ -22,7 +22,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 // Steps of other kinds than runs have names that start with these words.
-std::set<std::string, std::less<>> const reserved_names{"choose", "knowledge", "archive", "report"};
+std::set<std::string, std::less<>> const reserved_names{"choose", "knowledge", "archive", "replay", "report"};
 
 /// Values that treatments share unless they have their own.
 struct Defaults {

@@ -62,7 +62,7 @@ Scheduler::Readiness Scheduler::readiness(Task const& task, std::string& missing
 
 /// The same as far as one of the steps that it waits for is concerned.
 Scheduler::Readiness Scheduler::readiness(Task const& task, Step const& needed) {
-    bool const can_do_without = task.step.kind == StepKind::choose;   // runs that failed are not considered
+    bool const can_do_without = task.step.takes_what_is_there;
     auto const ours =
         std::find_if(tasks_.begin(), tasks_.end(), [&](Task const& t) { return t.step.name == needed.name; });
     if (ours == tasks_.end()) return can_do_without || done_on_disk(needed) ? Readiness::ready : Readiness::never;

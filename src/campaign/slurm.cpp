@@ -144,7 +144,7 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory co
             job.group = step.group;
             for (std::string const& group : step.after)
                 if (job_of_group.contains(group))
-                    (step.kind == StepKind::choose ? job.after_any : job.after).push_back(group);
+                    (step.takes_what_is_there ? job.after_any : job.after).push_back(group);
             jobs.push_back(std::move(job));
         }
         if (step.kind == StepKind::evolve) jobs[entry->second].tasks.push_back(step.run);

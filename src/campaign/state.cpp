@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/file_lock.h>
 #include <lore/campaign/choice.h>
+#include <lore/campaign/replay_step.h>
 #include <lore/core/error.h>
 #include <lore/core/whole_number.h>
 #include <lore/experiment/manifest.h>
@@ -82,6 +83,16 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     return say(StepStatus::missing, "");
 }
 
+/// Whether the outcome of a step that is no run is on disk; if not, `reason` may say why it is to be made again.
+bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
+              std::optional<Choice> const& choice, std::string& reason) {
+    if (step.kind == StepKind::choose) return choice && choice->covers(plan);
+    if (step.kind == StepKind::build) return fs::exists(directory.knowledge(step.subject));
+    auto const due = replay_is_due(plan, directory, directory);
+    if (due) reason = *due;
+    return !due && can_replay(plan, directory);
+}
+
 }   // namespace
 
 std::string_view name(StepStatus status) {
@@ -124,9 +135,7 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         return state;
     }
     StepState state;
-    bool const there =
-        step.kind == StepKind::choose ? choice && choice->covers(plan) : fs::exists(directory.knowledge(step.subject));
-    if (there) {
+    if (is_there(plan, directory, step, choice, state.reason)) {
         state.status = StepStatus::done;
         if (step.kind == StepKind::choose) {
             std::vector<std::string> words;

@@ -72,6 +72,18 @@ void add_build(KnowledgePlan const& knowledge, std::vector<Step>& steps) {
     steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
 }
 
+/// After all that the pictures of trajectories may show.
+void add_replay(CampaignPlan const& plan, std::vector<Step>& steps) {
+    std::vector<std::string> after{"choose"};
+    for (std::vector<std::string> const& names : {plan.figures.figure5, plan.figures.figure6})
+        for (std::string const& name : names)
+            if (std::find(after.begin(), after.end(), knowledge_step(name)) == after.end())
+                after.push_back(knowledge_step(name));
+    for (Treatment const& target : plan.targets)
+        if (target.runs > 0) after.push_back(target.name);
+    steps.push_back({"replay", StepKind::replay, "replay", "", 0, after, true});
+}
+
 }   // namespace
 
 std::string run_step(std::string_view treatment, int run) {
@@ -101,9 +113,10 @@ std::string CampaignDirectory::record(std::string_view step) const {
 std::vector<Step> steps_of(CampaignPlan const& plan) {
     std::vector<Step> steps;
     add_runs(plan.source, steps);
-    if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}});
+    if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}, true});
     for (KnowledgePlan const& knowledge : plan.knowledge) add_build(knowledge, steps);
     for (Treatment const& target : plan.targets) add_runs(target, steps);
+    if (!plan.figures.trajectory.empty()) add_replay(plan, steps);
     return steps;
 }
 
@@ -150,6 +163,7 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
         return command;
     }
     case StepKind::build: return build_command(context, launcher, plan.knowledge_base(step.subject));
+    case StepKind::replay: return {launcher.campaign_program, "replay", plan.path, "--dir", directory.path()};
     case StepKind::choose: break;
     }
     return {};

@@ -45,10 +45,10 @@ std::string blue(double share) {
 /// The picture under construction: document, scales, and what is drawn.
 class Painter {
 public:
-    Painter(Arena const& arena, TrajectoryPicture const& picture)
-        : arena_(arena), picture_(picture),
-          scale_(plan_width / arena.width), x_{0, arena.width, left_margin, left_margin + plan_width},
-          y_{0, arena.height, top_margin, top_margin + scale_ * arena.height},
+    Painter(Scene const& scene, TrajectoryPicture const& picture)
+        : scene_(scene), picture_(picture),
+          scale_(plan_width / scene.width), x_{0, scene.width, left_margin, left_margin + plan_width},
+          y_{0, scene.height, top_margin, top_margin + scale_ * scene.height},
           svg_(left_margin + plan_width + right_margin, height(), picture.title) {}
 
     std::string paint() && {
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    double plan_bottom() const { return top_margin + scale_ * arena_.height; }
+    double plan_bottom() const { return top_margin + scale_ * scene_.height; }
     double strip_top() const { return plan_bottom() + axis_room + legend_height; }
     double height() const {
         return picture_.values.empty() ? plan_bottom() + axis_room + legend_height
@@ -86,29 +86,29 @@ private:
         svg_.rect(place(wall.x0, wall.y0), (wall.x1 - wall.x0) * scale_, (wall.y1 - wall.y0) * scale_, paint);
     }
     void paint_walls() {
-        for (Rect const& wall : arena_.walls) paint_wall(wall, {.fill = wall_color});
-        for (Rect const& door : arena_.doors)
+        for (Rect const& wall : scene_.walls) paint_wall(wall, {.fill = wall_color});
+        for (Rect const& door : scene_.doors)
             paint_wall(door, {.fill = "#f2f2f2", .stroke = wall_color, .width = 1.2, .dashes = "5 3"});
     }
     void paint_basket() {
-        svg_.circle(place(arena_.basket_center), arena_.basket_radius * scale_, {.fill = "#d9f0e5"});
+        svg_.circle(place(scene_.basket_center), scene_.basket_radius * scale_, {.fill = "#d9f0e5"});
     }
     /// Balls, basket lights and the switch, with names; above the trajectory, because they are small.
     void paint_lights() {
-        bool const at_start = arena_.task.balls == BallRule::all_at_start;
-        for (Point const& ball : arena_.task.ball_positions) {
+        bool const at_start = scene_.balls_at_start;
+        for (Point const& ball : scene_.balls) {
             if (!at_start) svg_.circle(place(ball), 11, {.stroke = ink, .width = 1, .dashes = "3 3"});
             svg_.circle(place(ball), 6, {.fill = ball_color, .stroke = ink, .width = 1});
         }
-        svg_.circle(place(arena_.basket_center), arena_.basket_radius * scale_,
+        svg_.circle(place(scene_.basket_center), scene_.basket_radius * scale_,
                     {.stroke = basket_color, .width = 1.4, .dashes = "4 3"});
-        for (Point const& light : arena_.basket_lights)
+        for (Point const& light : scene_.basket_lights)
             svg_.circle(place(light), 4, {.fill = basket_color, .stroke = ink, .width = 0.8});
         Point center{};
-        for (Point const& light : arena_.basket_lights) center = {center.x + light.x, center.y + light.y};
-        float const lights = static_cast<float>(arena_.basket_lights.size());
+        for (Point const& light : scene_.basket_lights) center = {center.x + light.x, center.y + light.y};
+        float const lights = static_cast<float>(scene_.basket_lights.size());
         name(place(center.x / lights, center.y / lights), "basket");
-        SvgPoint const lamp = place(arena_.switch_position);
+        SvgPoint const lamp = place(scene_.switch_position);
         svg_.rect({lamp.x - 6, lamp.y - 6}, 12, 12, {.fill = "#8e4fb0", .stroke = ink, .width = 1});
         name(lamp, "switch");
     }
@@ -122,7 +122,7 @@ private:
     void paint_robots() {
         for (std::size_t step = 0; step < picture_.poses.size(); step += steps_between_robots)
             if (!stands_at(step))
-                paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), arena_.robot.radius * scale_,
+                paint_robot(place(picture_.poses[step].x, picture_.poses[step].y), scene_.robot_radius * scale_,
                             picture_.poses[step].theta, picture_.carrying[step] != 0);
     }
     /// True if the robot has not moved since the last picture of it: discs one upon the other would hide that they are
@@ -131,7 +131,7 @@ private:
         if (step == 0) return false;
         Pose const &now = picture_.poses[step], &before = picture_.poses[step - steps_between_robots];
         bool const same_load = picture_.carrying[step] == picture_.carrying[step - steps_between_robots];
-        return same_load && std::hypot(now.x - before.x, now.y - before.y) < 0.1 * arena_.robot.radius;
+        return same_load && std::hypot(now.x - before.x, now.y - before.y) < 0.1 * scene_.robot_radius;
     }
     void paint_robot(SvgPoint const& at, double radius, double theta, bool carrying) {
         svg_.circle(at, radius, {.fill = carrying ? robot_red : "#ffffff", .opacity = carrying ? 0.45 : 0.6});
@@ -210,8 +210,8 @@ private:
         }
         svg_.circle({x, y}, 6, {.fill = ball_color, .stroke = ink, .width = 1});
         x += 12;
-        entry(arena_.task.balls == BallRule::all_at_start ? "ball at the start" : "ball, after a press of the switch");
-        if (!arena_.doors.empty()) {
+        entry(scene_.balls_at_start ? "ball at the start" : "ball, after a press of the switch");
+        if (!scene_.doors.empty()) {
             svg_.rect({x - 4, y - 7}, 8, 14, {.fill = "#f2f2f2", .stroke = wall_color, .width = 1.2, .dashes = "5 3"});
             x += 10;
             entry("door");
@@ -269,7 +269,7 @@ private:
         svg_.text({20, (top + bottom) / 2}, picture_.value_label, {.anchor = Anchor::middle, .rotation = -90});
     }
 
-    Arena const& arena_;
+    Scene const& scene_;
     TrajectoryPicture const& picture_;
     double scale_;   ///< [pixels/u]
     Axis x_, y_;
@@ -278,9 +278,9 @@ private:
 
 }   // namespace
 
-std::string draw_trajectory(Arena const& arena, TrajectoryPicture const& picture) {
+std::string draw_trajectory(Scene const& scene, TrajectoryPicture const& picture) {
     assert(picture.poses.size() == picture.carrying.size() && picture.window_length > 0);
-    return Painter{arena, picture}.paint();
+    return Painter{scene, picture}.paint();
 }
 
 }   // namespace lore

@@ -10,8 +10,13 @@ import re
 import sys
 
 LEVELS = [["core"], ["statistics", "network", "arena"], ["episode"], ["behavior", "knowledge"], ["evaluation"],
-          ["evolution"], ["archive"], ["cluster", "figure"], ["experiment"], ["campaign"]]
+          ["evolution"], ["archive"], ["cluster", "figure"], ["experiment"], ["campaign"], ["report"]]
 LEVEL = {module: level for level, row in enumerate(LEVELS) for module in row}
+
+# The report reads what a campaign has left; the campaign's step "replay" simulates. Neither a file of the report nor a
+# header of its own or the campaign's that it includes may include these.
+READERS = {"report": ["episode", "arena"]}
+FOLLOWED = ["report", "campaign"]
 
 # Who may include a foreign header: modules, or single files. Programs (tools/) may include CLI11 and fmt.
 DOORS = {
@@ -29,6 +34,31 @@ DOORS = {
 
 root = pathlib.Path(sys.argv[1])
 breaches = []
+
+
+def lore_headers(file):
+    return re.findall(r'^\s*#\s*include\s*[<"](lore/(\w+)/[^>"]+)[>"]', file.read_text(), re.MULTILINE)
+
+
+def check_reader(file, forbidden):
+    """Follows the headers that `file` includes through the modules in FOLLOWED."""
+    open_files, seen = [file], {file}
+    while open_files:
+        current = open_files.pop()
+        for header, module in lore_headers(current):
+            if module in forbidden:
+                breaches.append(f"{file.relative_to(root)}: it only reads, and {current.relative_to(root)} includes {header}")
+            followed = root / "include" / header
+            if module in FOLLOWED and followed not in seen and followed.exists():
+                seen.add(followed)
+                open_files.append(followed)
+
+
+for reader, forbidden in READERS.items():
+    for file in sorted([*root.glob(f"include/lore/{reader}/*.h"), *root.glob(f"src/{reader}/*.*")]):
+        if file.suffix in {".h", ".cpp"}:
+            check_reader(file, forbidden)
+
 for file in sorted([*root.glob("include/lore/*/*.h"), *root.glob("src/*/*"), *root.glob("tools/**/*.cpp"), *root.glob("tools/**/*.h")]):
     if file.suffix not in {".h", ".cpp"}:
         continue

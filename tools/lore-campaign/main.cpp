@@ -57,11 +57,12 @@ int start(int argc, char** argv) {
     app.fallthrough();
     app.add_flag("-q,--quiet", arguments.quiet, "say only what went wrong");
 
-    std::array const subcommands{&plan, &run, &submit, &report, &status, &test};
+    std::array const subcommands{&plan, &run, &submit, &report, &replay, &status, &test};
     for (Subcommand const* const subcommand : subcommands)
         subcommand->add_options(*app.add_subcommand(subcommand->name, subcommand->description), arguments);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
+    arguments.runner.launcher.campaign_program = std::filesystem::read_symlink("/proc/self/exe").string();
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     for (Subcommand const* const subcommand : subcommands)
         if (app.got_subcommand(subcommand->name)) return static_cast<int>(subcommand->work(arguments));

@@ -1,7 +1,8 @@
 #include "subcommand.h"
 
 #include <lore/campaign/plan.h>
-#include <lore/campaign/report.h>
+#include <lore/campaign/replay_step.h>
+#include <lore/report/report.h>
 
 namespace lore::campaign_program {
 
@@ -15,8 +16,12 @@ void add_options(CLI::App& app, Arguments& arguments) {
 ExitCode work(Arguments const& arguments) {
     CampaignDirectory const from{arguments.directory};
     CampaignDirectory const into{arguments.out.empty() ? arguments.directory : arguments.out};
-    write_report(read_campaign(arguments.file), from, into);
+    CampaignPlan const campaign = read_campaign(arguments.file);
+    // The report only reads: what its pictures of trajectories show is simulated before, where that is due.
+    if (replay_is_due(campaign, from, into)) make_replays(campaign, from, into);
+    std::string const missing = write_report(campaign, from, into);
     if (!arguments.quiet) fmt::print("{}\n", into.file("report.html"));
+    if (!arguments.quiet && !missing.empty()) fmt::print("{}\n", missing);
     return ExitCode::done;
 }
 

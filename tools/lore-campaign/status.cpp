@@ -27,7 +27,8 @@ ExitCode work(Arguments const& arguments) {
         if (state.status == StepStatus::missing) {
             auto const open = std::find_if(step.after.begin(), step.after.end(),
                                            [&](std::string const& group) { return unfinished.contains(group); });
-            state.reason = open == step.after.end() ? "not started" : fmt::format("waits for {}", *open);
+            if (open != step.after.end()) state.reason = fmt::format("waits for {}", *open);
+            else if (state.reason.empty()) state.reason = "not started";
         }
         if (!arguments.quiet) fmt::print("{:<24} {:<12} {}\n", step.name, name(state.status), state.reason);
     }

@@ -32,7 +32,7 @@ struct Subcommand {
     ExitCode (*work)(Arguments const&);
 };
 
-extern Subcommand const plan, run, submit, report, status, test;
+extern Subcommand const plan, run, submit, report, replay, status, test;
 
 /// FILE and --dir, of all that work on a campaign.
 void add_campaign(CLI::App&, Arguments&);

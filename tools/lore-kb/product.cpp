@@ -3,10 +3,11 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/core/error.h>
-#include <lore/knowledge/shaping.h>
+#include <lore/knowledge/product.h>
+
+#include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace lore::kb {
 
@@ -41,21 +42,19 @@ void product(Program const& program, Options const& options) {
     for (std::size_t i = 1; i <= shapers.size(); ++i) fmt::format_to(std::back_inserter(csv), ",value_{}", i);
     csv += '\n';
     int const length = shapers.front().base().config().window_length;
-    int row = 0, salient = 0;
-    for (Window const& window : windows_of(trace, length)) {
-        std::vector<double> values;
-        double all = 1;
-        for (Shaper const& shaper : shapers) {
-            Match const match = shaper.match(window);
-            values.push_back(match.found() ? shaper.base().value(match.feature) : no_feature_value);
-            all *= match.found() ? values.back() : 0;
-        }
-        salient += all != 0;
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", row, row * length, all, fmt::join(values, ","));
-        ++row;
+    std::vector<Window> const windows = windows_of(trace, length);
+    std::vector<std::vector<double>> values;
+    for (Shaper const& shaper : shapers) values.push_back(values_of(shaper, windows));
+    std::vector<double> const products = product_of(values);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        fmt::format_to(std::back_inserter(csv), "{},{},{}", w, w * static_cast<std::size_t>(length), products[w]);
+        for (std::vector<double> const& of_base : values) fmt::format_to(std::back_inserter(csv), ",{}", of_base[w]);
+        csv += '\n';
     }
+    auto const salient = std::count_if(products.begin(), products.end(), [](double product) { return product != 0; });
     write_file_atomically(options.csv, csv);
-    say(program, fmt::format("wrote {}: {} of {} windows have a product other than 0", options.csv, salient, row));
+    say(program,
+        fmt::format("wrote {}: {} of {} windows have a product other than 0", options.csv, salient, windows.size()));
 }
 
 }   // namespace

@@ -12,18 +12,20 @@ enum class StepKind : std::uint8_t {
     evolve,    ///< one run of lore-evolve
     choose,    ///< decides which source runs the knowledge bases come from
     archive,   ///< a source run once more, keeping everybody
-    build      ///< one knowledge base
+    build,     ///< one knowledge base
+    replay     ///< simulates what the report's pictures of trajectories show
 };
 
 /// One piece of work whose outcome is on disk. Names are unique: "source/007", "choose", "archive/kb1_all",
-/// "knowledge/kb1", "kb1/012".
+/// "knowledge/kb1", "kb1/012", "replay".
 struct Step {
     std::string name;
     StepKind kind = StepKind::evolve;
-    std::string group;                ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
-    std::string subject;              ///< of the treatment or the knowledge base
-    int run = 0;                      ///< evolve: 1, 2, ...
-    std::vector<std::string> after;   ///< groups that must be finished
+    std::string group;                  ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
+    std::string subject;                ///< of the treatment or the knowledge base
+    int run = 0;                        ///< evolve: 1, 2, ...
+    std::vector<std::string> after;     ///< groups that must be finished
+    bool takes_what_is_there = false;   ///< it can do without those of them that failed
 };
 
 /// All of a campaign, in the order in which it is worked through; every step after those that it waits for.
@@ -57,7 +59,8 @@ struct Choice;
 /// How the programs are called.
 struct Launcher {
     std::string programs;   ///< directory of lore-evolve and lore-kb; empty: found by the shell's rules
-    int ranks = 1;          ///< of one run; 1: started without mpirun
+    std::string campaign_program = "lore-campaign";            ///< for the step "replay"
+    int ranks = 1;                                             ///< of one run; 1: started without mpirun
     std::string launch = "mpirun -n {ranks} --bind-to none";   ///< put in front of a run of several ranks
 };
 

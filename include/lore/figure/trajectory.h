@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/arena/arena.h>
+#include <lore/figure/scene.h>
 
 #include <cstdint>
 #include <span>
@@ -24,6 +24,6 @@ struct TrajectoryPicture {
 /// The arena (walls dark, the door dashed, balls, basket with its lights, switch), the trajectory from white (low
 /// values) to blue (high ones) with a dark outline, thin and gray where a window was not found, the robot every 50
 /// steps, white or, with a ball, red; below it the value over time. As an SVG document.
-std::string draw_trajectory(Arena const&, TrajectoryPicture const&);
+std::string draw_trajectory(Scene const&, TrajectoryPicture const&);
 
 }   // namespace lore

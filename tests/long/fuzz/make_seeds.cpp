@@ -80,7 +80,8 @@ void results(Seeds const& seeds, fs::path const& samples) {
     seeds.write("results", "choice.json", which++, read_file(choice));
     std::string_view const failure = R"({"attempts": 2, "how": "exit code 1", "log_tail": ["a line", "another"]})";
     seeds.write("results", "failure.json", which++, std::as_bytes(std::span{failure.data(), failure.size()}));
-    seeds.write("results", "population.csv", which, read_file(sample / "population.csv"));
+    seeds.write("results", "population.csv", which++, read_file(sample / "population.csv"));
+    seeds.write("results", "scene.json", which, read_file(sample / "scene.json"));
 }
 
 void messages(Seeds const& seeds, Population const& population) {

@@ -1,9 +1,9 @@
 // What a campaign left in its directory; the first byte says which file the rest is.
 
 #include "fuzz_input.h"
+#include "results.h"
 
 #include <lore/campaign/choice.h>
-#include <lore/campaign/results.h>
 #include <lore/campaign/state.h>
 
 #include <filesystem>
@@ -29,6 +29,9 @@ public:
     void read_with(std::string const& name, fuzz::MemoryFile const& file) {
         put("final.csv", final_runs);
         put("curves.csv", curves);
+        put("scene.json", scene);
+        put("replay.csv", replay);
+        put("values.csv", values);
         put(name, file);
         fuzz::accepts([&] { read_results(directory); });
         fs::remove(directory.file(name));
@@ -52,6 +55,14 @@ private:
     Step const step{"a", StepKind::evolve, "a", "a", 1, {}};
     fuzz::MemoryFile const final_runs{bytes("treatment,run,seed,balls\nnone,1,7,4\n")};
     fuzz::MemoryFile const curves{bytes("treatment,generation,runs,mean,low,high\nnone,0,1,0,0,0\n")};
+    // The names are those of the seeds in tests/long/browser/sample.
+    fuzz::MemoryFile const scene{bytes(
+        R"({"replays": [{"run": "source/002", "signature": "", "scene": {"width": 1, "height": 1, "walls": [], "doors": [],
+        "balls": [], "balls_at_start": true, "basket": [0, 0, 1], "basket_lights": [[0, 0]], "switch": [0, 0],
+        "robot_radius": 1}}], "panels": [{"figure": "figure5", "knowledge": "kb1", "checksum": ""}]})")};
+    fuzz::MemoryFile const replay{bytes("replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected\n"
+                                        "source/002,0,1,1,0,0,0,0,1,0\n")};
+    fuzz::MemoryFile const values{bytes("figure,knowledge,window,value\nfigure5,kb1,0,1\n")};
 };
 
 }   // namespace
@@ -60,9 +71,10 @@ void read_input(std::span<std::byte const> input) {
     static MadeUpCampaign campaign;
     if (input.empty()) return;
     fuzz::MemoryFile const stored{input.subspan(1)};
-    std::size_t const which = std::to_integer<std::size_t>(input[0]) % (std::size(tables) + 3);
+    std::size_t const which = std::to_integer<std::size_t>(input[0]) % (std::size(tables) + 4);
     if (which < std::size(tables)) campaign.read_with(tables[which], stored);
     else if (which == std::size(tables)) fuzz::accepts([&] { read_choice(stored.path()); });
     else if (which == std::size(tables) + 1) campaign.read_failure_of(stored);
-    else campaign.read_with("population.csv", stored);
+    else if (which == std::size(tables) + 2) campaign.read_with("population.csv", stored);
+    else campaign.read_with("scene.json", stored);
 }

@@ -1,5 +1,6 @@
 #include <lore/figure/trajectory.h>
 
+#include <lore/arena/arena.h>
 #include <lore/figure/svg.h>
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ constexpr std::string_view red_disc = "fill=\"#e0452f\"";
 TEST(DrawTrajectory, colors_windows_from_white_for_low_to_blue_for_high_values) {
     Journey journey;
     journey.picture.values[0] = 0;
-    std::string const svg = draw_trajectory(load_arena("collectball", "source"), journey.picture);
+    std::string const svg = draw_trajectory(scene_of(load_arena("collectball", "source")), journey.picture);
     EXPECT_EQ(count(svg, white_line), 1);
     EXPECT_EQ(count(svg, blue_line), 9);
 }
@@ -50,31 +51,31 @@ TEST(DrawTrajectory, colors_windows_from_white_for_low_to_blue_for_high_values) 
 TEST(DrawTrajectory, leaves_windows_that_were_not_found_without_color) {
     Journey journey;
     journey.picture.values[3] = std::numeric_limits<double>::quiet_NaN();
-    std::string const svg = draw_trajectory(load_arena("collectball", "source"), journey.picture);
+    std::string const svg = draw_trajectory(scene_of(load_arena("collectball", "source")), journey.picture);
     EXPECT_EQ(count(svg, blue_line), 9);
     EXPECT_EQ(count(svg, "nan"), 0);
 }
 
 TEST(DrawTrajectory, shows_the_robot_every_50_steps_red_with_a_ball) {
     Journey journey;
-    Arena const arena = load_arena("collectball", "source");
-    std::string const svg = draw_trajectory(arena, journey.picture);
+    Scene const scene = scene_of(load_arena("collectball", "source"));
+    std::string const svg = draw_trajectory(scene, journey.picture);
     EXPECT_EQ(count(svg, red_disc), 2 + 1) << "at steps 100 and 150, and in the legend";
 }
 
 TEST(DrawTrajectory, shows_a_robot_that_stands_once) {
     Journey journey;
     std::fill(journey.carrying.begin(), journey.carrying.end(), std::uint8_t{1});
-    Arena const arena = load_arena("collectball", "source");
-    EXPECT_EQ(count(draw_trajectory(arena, journey.picture), red_disc), 4 + 1);
+    Scene const scene = scene_of(load_arena("collectball", "source"));
+    EXPECT_EQ(count(draw_trajectory(scene, journey.picture), red_disc), 4 + 1);
     std::fill(journey.poses.begin(), journey.poses.end(), Pose{230, 100, 0});
-    EXPECT_EQ(count(draw_trajectory(arena, journey.picture), red_disc), 1 + 1);
+    EXPECT_EQ(count(draw_trajectory(scene, journey.picture), red_disc), 1 + 1);
 }
 
 TEST(DrawTrajectory, draws_a_straight_window_with_two_points_and_a_bent_one_with_its_corners) {
     Journey journey;
     for (std::size_t step = 15; step < 20; ++step) journey.poses[step].y += 2 * static_cast<float>(step - 14);
-    std::string const svg = draw_trajectory(load_arena("collectball", "source"), journey.picture);
+    std::string const svg = draw_trajectory(scene_of(load_arena("collectball", "source")), journey.picture);
     int const outline_and_color = 2;
     EXPECT_EQ(count(svg, "points=\"365,176 383.2,176 389.7,189 391,176\""), outline_and_color);
     EXPECT_EQ(count(svg, "points=\"391,176 417,176\""), outline_and_color);
@@ -83,7 +84,7 @@ TEST(DrawTrajectory, draws_a_straight_window_with_two_points_and_a_bent_one_with
 TEST(DrawTrajectory, has_neither_strip_nor_color_bar_without_values) {
     Journey journey;
     journey.picture.values.clear();
-    std::string const svg = draw_trajectory(load_arena("collectball", "target"), journey.picture);
+    std::string const svg = draw_trajectory(scene_of(load_arena("collectball", "target")), journey.picture);
     EXPECT_EQ(count(svg, "time (steps)"), 0);
     EXPECT_EQ(count(svg, "value (balls)"), 0);
     EXPECT_EQ(count(svg, "x (u)"), 1);
@@ -92,13 +93,13 @@ TEST(DrawTrajectory, has_neither_strip_nor_color_bar_without_values) {
 TEST(DrawTrajectory, copes_with_equal_values_and_very_short_evaluations) {
     Journey journey;
     journey.picture.lowest = journey.picture.highest = 4;
-    Arena const arena = load_arena("collectball", "source");
-    EXPECT_FALSE(render_png(draw_trajectory(arena, journey.picture)).empty());
+    Scene const scene = scene_of(load_arena("collectball", "source"));
+    EXPECT_FALSE(render_png(draw_trajectory(scene, journey.picture)).empty());
     TrajectoryPicture moment = journey.picture;
     moment.poses = moment.poses.first(1);
     moment.carrying = moment.carrying.first(1);
     moment.values.clear();
-    EXPECT_FALSE(render_png(draw_trajectory(arena, moment)).empty());
+    EXPECT_FALSE(render_png(draw_trajectory(scene, moment)).empty());
 }
 
 }   // namespace

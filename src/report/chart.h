@@ -1,7 +1,7 @@
 #pragma once
 
-#include <lore/campaign/comparison.h>
-#include <lore/campaign/results.h>
+#include "comparison.h"
+#include "results.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include <lore/campaign/comparison.h>
+#include "comparison.h"
 
 #include <lore/statistics/holm.h>
 #include <lore/statistics/mann_whitney.h>

@@ -1,4 +1,4 @@
-#include <lore/campaign/comparison.h>
+#include "comparison.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

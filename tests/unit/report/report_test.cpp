@@ -1,6 +1,6 @@
-#include <lore/campaign/report.h>
+#include <lore/report/report.h>
 
-#include "campaign_fixture.h"
+#include "campaign/campaign_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -72,8 +72,7 @@ TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone)
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::filesystem::create_directories(scratch.file("kept"));
-    for (char const* name :
-         {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "replay.csv", "values.csv"})
+    for (char const* name : {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
     for (char const* name :

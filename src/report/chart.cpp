@@ -1,7 +1,6 @@
-#include <lore/campaign/chart.h>
+#include "chart.h"
 
 #include <lore/core/error.h>
-#include <lore/experiment/config.h>
 #include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
 #include <lore/figure/trajectory.h>
@@ -273,8 +272,6 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
 std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
     if (results.replays.empty()) return "";
     Replay const& replay = results.replays.front();
-    ExperimentConfig const config = read_config(plan.config_path(plan.source), plan.source.overrides);
-    Arena const arena = load_arena(config.arena, config.task);
     std::vector<Pose> poses;
     std::vector<std::uint8_t> carrying;
     for (ReplayStep const& step : replay.steps) {
@@ -305,7 +302,7 @@ std::string draw_panels(CampaignPlan const& plan, Results const& results, std::s
         if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
         picture.not_found = product ? 0 : -1;
         picture.value_label = product ? "product of the values" : "value (balls)";
-        panels.push_back(draw_trajectory(arena, picture));
+        panels.push_back(draw_trajectory(replay.scene, picture));
     }
     if (panels.size() < 2) return panels.empty() ? "" : panels.front();
 

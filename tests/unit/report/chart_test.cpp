@@ -1,4 +1,4 @@
-#include <lore/campaign/chart.h>
+#include "chart.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/campaign/steps.h>
+#include <lore/campaign/replay.h>
 
 #include <cstdint>
 #include <string>
@@ -57,27 +57,6 @@ struct KnowledgeRow {
     int shown_once = 0;    ///< features that one individual alone has shown
 };
 
-/// Where the robot is and what has happened at the beginning of a step: a row of replay.csv.
-struct ReplayStep {
-    float x = 0, y = 0, theta = 0;
-    bool carrying = false, door_open = false, switch_on = false;
-    unsigned balls_mask = 0;
-    int collected = 0;
-};
-
-/// The best-of-run of one run, step by step.
-struct Replay {
-    std::string step;   ///< the campaign's name of the run, "source/007"
-    std::vector<ReplayStep> steps;
-};
-
-/// What a knowledge base, or the product of several, says about the windows of the shown trajectory: values.csv.
-struct PanelValues {
-    std::string figure;           ///< "figure5" or "figure6"
-    std::string knowledge;        ///< names joined by '*'
-    std::vector<double> values;   ///< per window; -1 where a single base, 0 where a product does not find it
-};
-
 /// All that the report shows. It is made from these rows alone, so that it can be made again from the CSV files long
 /// after the runs are gone.
 struct Results {
@@ -91,13 +70,14 @@ struct Results {
     std::vector<double> final_balls(std::string_view treatment) const;
 };
 
-/// Gathers the finished runs, knowledge bases and trajectories of a campaign from its directory. Throws Error for a
-/// damaged file.
+/// Gathers the finished runs and knowledge bases of a campaign from its directory; replays and panels stay empty.
+/// Throws Error for a damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
 
-/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, replay.csv, values.csv (docs/manual/formats.md).
+/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv (docs/manual/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
-/// Needs final.csv and curves.csv; what the others would tell is left out where they are missing. Throws Error.
+/// These and what the step "replay" wrote. Needs final.csv and curves.csv; what the others would tell is left out where
+/// they are missing. Throws Error.
 Results read_results(CampaignDirectory const&);
 
 }   // namespace lore

@@ -1,14 +1,12 @@
-#include <lore/campaign/results.h>
+#include "results.h"
 
 #include <lore/archive/knowledge_file.h>
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
-#include <lore/episode/episode.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
-#include <lore/knowledge/shaping.h>
 #include <lore/statistics/bootstrap.h>
 
 #include <algorithm>
@@ -16,7 +14,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace lore {
 
@@ -148,51 +145,6 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
     return rows;
 }
 
-Replay replay_of(RunDirectory const& run, std::string const& step) {
-    Replay replay{step, {}};
-    WorldState before = start_world(run.arena);
-    run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
-        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open,
-                                before.switch_lit, before.balls, before.collected});
-        before = view.world;
-    });
-    return replay;
-}
-
-/// Values of the windows by each base, and their product where several are asked for together.
-std::vector<PanelValues> panels_of(CampaignPlan const& plan, CampaignDirectory const& directory,
-                                   RunDirectory const& run) {
-    Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
-    auto values_by = [&](std::string const& name) {
-        Shaper const shaper{read_knowledge_base(directory.knowledge(name))};
-        auto reader = shaper.reader();
-        std::vector<double> values;
-        for (Window const& window : windows_of(trace, shaper.base().config().window_length)) {
-            Match const match = reader.match(window);
-            values.push_back(match.found() ? shaper.base().value(match.feature) : no_feature_value);
-        }
-        return values;
-    };
-    auto const built = [&](std::string const& name) { return fs::exists(directory.knowledge(name)); };
-
-    std::vector<PanelValues> panels;
-    for (std::string const& name : plan.figures.figure5)
-        if (built(name)) panels.push_back({"figure5", name, values_by(name)});
-    if (!plan.figures.figure6.empty() && std::all_of(plan.figures.figure6.begin(), plan.figures.figure6.end(), built)) {
-        PanelValues product{"figure6", fmt::format("{}", fmt::join(plan.figures.figure6, "*")), {}};
-        for (std::string const& name : plan.figures.figure6) {
-            std::vector<double> const values = values_by(name);
-            if (product.values.empty()) product.values.assign(values.size(), 1.0);
-            if (values.size() != product.values.size())
-                throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
-                            "Name others in [report].");
-            for (std::size_t w = 0; w < values.size(); ++w) product.values[w] *= std::max(0.0, values[w]);
-        }
-        panels.push_back(std::move(product));
-    }
-    return panels;
-}
-
 }   // namespace
 
 std::vector<double> Results::final_balls(std::string_view treatment) const {
@@ -216,25 +168,7 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         auto const populations = populations_of(treatment, runs);
         results.populations.insert(results.populations.end(), populations.begin(), populations.end());
     }
-    auto const choice = recorded_choice(directory);
-    results.bases = knowledge_rows(plan, directory, choice);
-
-    ChosenRun const* const shown =
-        choice && !plan.figures.trajectory.empty() ? choice->find(plan.figures.trajectory) : nullptr;
-    if (shown != nullptr) {
-        std::string const step = run_step(plan.source.name, shown->run);
-        RunDirectory const run = open_run(directory.run(step));
-        results.replays.push_back(replay_of(run, step));
-        results.panels = panels_of(plan, directory, run);
-
-        RunRow const* best = nullptr;
-        for (RunRow const& row : results.runs)
-            if (row.treatment != plan.source.name && (best == nullptr || row.balls > best->balls)) best = &row;
-        if (best != nullptr) {
-            std::string const target = run_step(best->treatment, best->run);
-            results.replays.push_back(replay_of(open_run(directory.run(target)), target));
-        }
-    }
+    results.bases = knowledge_rows(plan, directory, recorded_choice(directory));
     return results;
 }
 

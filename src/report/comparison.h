@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/campaign/results.h>
+#include "results.h"
 #include <lore/statistics/bootstrap.h>
 
 #include <string>

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <lore/campaign/replay.h>
+
+#include <optional>
+#include <string>
+
+namespace lore {
+
+/// Why the files of the step "replay" in `into` do not show what is there by now in the campaign's directory `from`:
+/// "not made yet", "kb1/007 is better than kb1/003". Nothing if they do, or if there is nothing to show yet.
+std::optional<std::string> replay_is_due(CampaignPlan const&, CampaignDirectory const& from,
+                                         CampaignDirectory const& into);
+
+/// Whether the source run that figures 5 and 6 show was chosen and is finished.
+bool can_replay(CampaignPlan const&, CampaignDirectory const&);
+
+/// The step "replay": simulates the best of the source run that figures 5 and 6 show and the best of all finished
+/// target runs, looks the first one's windows up in those knowledge bases of the figures that are there, and writes the
+/// files. Throws Error: no such source run yet, a damaged file, bases of several window lengths in figure 6.
+void make_replays(CampaignPlan const&, CampaignDirectory const& from, CampaignDirectory const& into);
+
+}   // namespace lore

@@ -1,0 +1,158 @@
+#include <lore/campaign/replay_step.h>
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/campaign/choice.h>
+#include <lore/campaign/state.h>
+#include <lore/core/error.h>
+#include <lore/episode/episode.h>
+#include <lore/experiment/manifest.h>
+#include <lore/experiment/run_directory.h>
+#include <lore/knowledge/product.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The finished source run that the figures show; "" if there is none yet.
+std::string source_run(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    if (plan.figures.trajectory.empty()) return "";
+    auto const choice = recorded_choice(directory);
+    ChosenRun const* const shown = choice ? choice->find(plan.figures.trajectory) : nullptr;
+    if (shown == nullptr) return "";
+    Step const step{
+        run_step(plan.source.name, shown->run), StepKind::evolve, plan.source.name, plan.source.name, shown->run, {}};
+    return state_of(plan, directory, step, Locks::ignored).status == StepStatus::done ? step.name : "";
+}
+
+/// The finished target run with most balls, the first in the report's order among equals; "" if there is none yet.
+std::string best_target_run(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    std::string best;
+    int most = 0;
+    for (std::string const& name : plan.report_order) {
+        Treatment const& treatment = plan.treatment(name);
+        for (int run = 1; run <= treatment.runs; ++run) {
+            Step const step{run_step(name, run), StepKind::evolve, name, name, run, {}};
+            StepState const state = state_of(plan, directory, step, Locks::ignored);
+            if (state.status != StepStatus::done || (!best.empty() && state.best_balls <= most)) continue;
+            best = step.name;
+            most = state.best_balls;
+        }
+    }
+    return best;
+}
+
+/// Panels that can be drawn: of the knowledge bases that are there.
+std::vector<PanelValues> panels_to_draw(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    auto const built = [&](std::string const& name) { return fs::exists(directory.knowledge(name)); };
+    auto const panel = [&](std::string const& figure, std::vector<std::string> const& names) {
+        std::vector<std::string> checksums;
+        for (std::string const& name : names)
+            checksums.push_back(record_of("knowledge base", directory.knowledge(name), name).checksum);
+        return PanelValues{
+            figure, fmt::format("{}", fmt::join(names, "*")), {}, fmt::format("{}", fmt::join(checksums, "*"))};
+    };
+    std::vector<PanelValues> panels;
+    for (std::string const& name : plan.figures.figure5)
+        if (built(name)) panels.push_back(panel("figure5", {name}));
+    std::vector<std::string> const& factors = plan.figures.figure6;
+    if (!factors.empty() && std::all_of(factors.begin(), factors.end(), built))
+        panels.push_back(panel("figure6", factors));
+    return panels;
+}
+
+std::string signature_of(CampaignDirectory const& directory, std::string const& run) {
+    return read_manifest((fs::path{directory.run(run)} / run_file::manifest).string()).signature;
+}
+
+Replay replay_of(RunDirectory const& run, std::string const& step, std::string signature) {
+    Replay replay{step, std::move(signature), scene_of(run.arena), {}};
+    WorldState before = start_world(run.arena);
+    run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
+        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open,
+                                before.switch_lit, before.balls, before.collected});
+        before = view.world;
+    });
+    return replay;
+}
+
+std::vector<double> values_by(std::string const& knowledge, CampaignDirectory const& directory, Trace const& trace) {
+    Shaper const shaper{read_knowledge_base(directory.knowledge(knowledge))};
+    return values_of(shaper, windows_of(trace, shaper.base().config().window_length));
+}
+
+std::vector<double> product_by(std::vector<std::string> const& factors, CampaignDirectory const& directory,
+                               Trace const& trace) {
+    std::vector<std::vector<double>> values;
+    for (std::string const& name : factors) {
+        values.push_back(values_by(name, directory, trace));
+        if (values.back().size() != values.front().size())
+            throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
+                        "Name others in [report].");
+    }
+    return product_of(values);
+}
+
+}   // namespace
+
+bool can_replay(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    return !source_run(plan, directory).empty();
+}
+
+std::optional<std::string> replay_is_due(CampaignPlan const& plan, CampaignDirectory const& from,
+                                         CampaignDirectory const& into) {
+    std::string const source = source_run(plan, from);
+    if (source.empty()) return std::nullopt;
+    for (char const* const file : {"replay.csv", "values.csv", "scene.json"})
+        if (!fs::exists(into.file(file))) return "not made yet";
+    Replays made;
+    try {
+        made = read_scenes(into);
+    } catch (Error const&) { return "scene.json is damaged"; }
+
+    std::vector<std::string> runs{source};
+    if (std::string const target = best_target_run(plan, from); !target.empty()) runs.push_back(target);
+    if (runs.size() != made.replays.size()) return "there are other runs by now";
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (made.replays[i].run != runs[i] || made.replays[i].signature != signature_of(from, runs[i]))
+            return fmt::format("it should show {}", runs[i]);
+
+    std::vector<PanelValues> const panels = panels_to_draw(plan, from);
+    auto const same = [](PanelValues const& a, PanelValues const& b) {
+        return a.figure == b.figure && a.knowledge == b.knowledge && a.checksum == b.checksum;
+    };
+    if (!std::equal(panels.begin(), panels.end(), made.panels.begin(), made.panels.end(), same))
+        return "there are other knowledge bases by now";
+    return std::nullopt;
+}
+
+void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
+    std::string const source = source_run(plan, from);
+    if (source.empty())
+        throw Error(fmt::format("there is nothing to replay in {}", from.path()),
+                    plan.figures.trajectory.empty()
+                        ? "[report] names no trajectory"
+                        : fmt::format("the source run of '{}' is not chosen or not finished", plan.figures.trajectory),
+                    "Look at 'lore-campaign status'.");
+    Replays all;
+    RunDirectory const run = open_run(from.run(source));
+    all.replays.push_back(replay_of(run, source, signature_of(from, source)));
+    if (std::string const target = best_target_run(plan, from); !target.empty())
+        all.replays.push_back(replay_of(open_run(from.run(target)), target, signature_of(from, target)));
+
+    Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
+    all.panels = panels_to_draw(plan, from);
+    for (PanelValues& panel : all.panels)
+        panel.values = panel.figure == "figure6" ? product_by(plan.figures.figure6, from, trace)
+                                                 : values_by(panel.knowledge, from, trace);
+    write_replays(into, all);
+}
+
+}   // namespace lore

@@ -1,0 +1,118 @@
+#include "page.h"
+
+#include "chart.h"
+#include "html.h"
+#include "page_parts.h"
+#include "report_assets.h"
+
+#include <lore/campaign/choice.h>
+#include <lore/experiment/version.h>
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore {
+
+namespace {
+
+/// One command of each kind that evolves or builds, as typed in the campaign's directory beside its configurations.
+std::string commands(CampaignPlan plan, Results const& results) {
+    plan.directory.clear();
+    Choice choice;
+    for (KnowledgeRow const& base : results.bases)
+        if (base.kind == "lineage")
+            choice.chosen.push_back({base.knowledge, 0, base.source_run, base.seed, base.balls});
+    bool const known = choice.covers(plan);
+    std::string text;
+    for (Step const& step : steps_of(plan)) {
+        if (step.kind == StepKind::choose || step.kind == StepKind::replay || step.run > 1) continue;
+        text += shell_text(command_of(plan, CampaignDirectory{""}, Launcher{}, step, known ? &choice : nullptr));
+        if (step.kind == StepKind::evolve) {
+            Treatment const& treatment = plan.treatment(step.subject);
+            if (treatment.runs > 1) text += fmt::format("   # and seeds to {}", seed_of(treatment, treatment.runs));
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// "" if this report does not have the figure.
+std::string figure(Figures const& figures, std::string const& name, Places const& of_caption = {}) {
+    auto const found = figures.find(name);
+    if (found == figures.end()) return "";
+    std::string caption = filled(name, of_caption);
+    caption.pop_back();   // its line's end
+    // In a page a document's own heading has no place, and ids must not repeat.
+    std::string const svg = with_own_ids(found->second.substr(found->second.find("<svg")), fmt::format("{}-", name));
+    return filled("figure", {{"name", name}, {"svg", svg}, {"caption", caption}});
+}
+
+std::string significance(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
+    if (comparisons.empty()) return "";
+    return filled("significance",
+                  {{"square", p_value_square(plan, comparisons)}, {"pairs", pairs_table(plan, comparisons)}});
+}
+
+std::string bases(CampaignPlan const& plan, Results const& results) {
+    return results.bases.empty() ? "" : filled("bases", {{"bases", bases_table(plan, results)}});
+}
+
+std::string populations(CampaignPlan const& plan, Results const& results) {
+    return results.populations.empty() ? "" : filled("population", {{"populations", populations_table(plan, results)}});
+}
+
+std::string versions(Results const& results) {
+    std::set<std::string> versions;
+    for (RunRow const& run : results.runs)
+        if (!run.version.empty()) versions.insert(run.version);
+    return versions.empty() ? "of unknown version" : fmt::format("{}", fmt::join(versions, ", "));
+}
+
+std::size_t planned_runs(CampaignPlan const& plan) {
+    std::size_t planned = static_cast<std::size_t>(plan.source.runs);
+    for (Treatment const& target : plan.targets) planned += static_cast<std::size_t>(target.runs);
+    return planned;
+}
+
+int last_generation(Results const& results) {
+    int last = 0;
+    for (CurveRow const& row : results.curves) last = std::max(last, row.generation);
+    return last;
+}
+
+}   // namespace
+
+std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
+                        Figures const& figures) {
+    std::size_t const planned = planned_runs(plan);
+    std::string const missing = what_is_missing(plan, results);
+    std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
+    BuildInformation const build = build_information();
+    // A new part is a function here, a place in page.html.in, and a block there for what stands around it.
+    return filled("page", {{"title", escaped(plan.title)},
+                           {"css", std::string{report_css}},
+                           {"js", std::string{report_js}},
+                           {"finished", std::to_string(results.runs.size())},
+                           {"planned", std::to_string(planned)},
+                           {"generation", std::to_string(last_generation(results))},
+                           {"incomplete", results.runs.size() < planned ? filled("incomplete", {}) : ""},
+                           {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
+                           {"treatments", treatments_table(plan, results)},
+                           {"figure3", figure(figures, "figure3")},
+                           {"figure4", figure(figures, "figure4")},
+                           {"significance", significance(plan, comparisons)},
+                           {"bases", bases(plan, results)},
+                           {"figure5", figure(figures, "figure5", {{"run", trajectory}})},
+                           {"figure6", figure(figures, "figure6")},
+                           {"replay", replay_section(plan, results)},
+                           {"population", populations(plan, results)},
+                           {"runs", runs_table(plan, results)},
+                           {"versions", escaped(versions(results))},
+                           {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
+                           {"commands", escaped(commands(plan, results))}});
+}
+
+}   // namespace lore

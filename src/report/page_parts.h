@@ -1,0 +1,24 @@
+#pragma once
+
+#include "comparison.h"
+#include "results.h"
+
+#include <string>
+#include <vector>
+
+namespace lore {
+
+// The parts of report.html, each as HTML that ends with a line's end; "" where there is nothing to show.
+
+std::string treatments_table(CampaignPlan const&, Results const&);
+std::string populations_table(CampaignPlan const&, Results const&);
+std::string bases_table(CampaignPlan const&, Results const&);
+std::string runs_table(CampaignPlan const&, Results const&);
+std::string pairs_table(CampaignPlan const&, std::vector<Comparison> const&);
+/// The appendix's square: every treatment against every other.
+std::string p_value_square(CampaignPlan const&, std::vector<Comparison> const&);
+
+/// The section with the robot to play, and the data that the page's script plays.
+std::string replay_section(CampaignPlan const&, Results const&);
+
+}   // namespace lore

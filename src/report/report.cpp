@@ -1,0 +1,92 @@
+#include <lore/report/report.h>
+
+#include "chart.h"
+#include "page.h"
+
+#include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
+#include <lore/core/file.h>
+#include <lore/figure/svg.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// The CSV files may be those of another campaign: every name in them must be known.
+void check_names(CampaignPlan const& plan, Results const& results) {
+    auto const check_treatment = [&](std::string_view file, std::string_view name) {
+        if (name == plan.source.name ||
+            std::find(plan.report_order.begin(), plan.report_order.end(), name) != plan.report_order.end())
+            return;
+        throw Error(fmt::format("cannot report with {}", plan.path),
+                    fmt::format("{} tells of a treatment '{}' that it does not know", file, name),
+                    "Use the campaign's file that made these results.");
+    };
+    for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
+    for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
+    for (Replay const& replay : results.replays)
+        check_treatment("replay.csv", std::string_view{replay.run}.substr(0, replay.run.find('/')));
+}
+
+void write_text(CampaignDirectory const& into, std::string_view name, std::string const& text) {
+    write_file_atomically(into.file(name), std::string_view{text});
+}
+
+Figures draw_figures(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+    Figures figures;
+    figures["figure3"] = draw_curves(plan, results);
+    figures["figure4"] = draw_boxplots(plan, results, comparisons);
+    for (std::string const figure : {"figure5", "figure6"})
+        if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
+    return figures;
+}
+
+void write_figures(CampaignDirectory const& into, Figures const& figures) {
+    // Figures of a former report that this one does not have would pass for its own.
+    std::error_code ignored;
+    for (std::string const figure : {"figure5", "figure6"})
+        for (std::string const kind : {"svg", "png"})
+            if (!figures.contains(figure)) {
+                std::error_code ignored;   // it may not be there
+                std::filesystem::remove(into.file(fmt::format("figures/{}.{}", figure, kind)), ignored);
+            }
+    for (auto const& [name, svg] : figures) {
+        write_text(into, fmt::format("figures/{}.svg", name), svg);
+        write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
+    }
+}
+
+}   // namespace
+
+std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
+    if (plan.figures.trajectory.empty() || !results.replays.empty()) return "";
+    return fmt::format("Figures 5 and 6 and the replay are missing: the step 'replay' has not written scene.json yet. "
+                       "Call 'lore-campaign report' again once '{}' has its source run, or keep scene.json beside the "
+                       "tables.",
+                       plan.figures.trajectory);
+}
+
+std::string write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
+    bool const has_runs = std::filesystem::exists(from.file("runs"));
+    if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
+        throw UsageError(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
+                         "Start with 'lore-campaign run', or check --dir.");
+    make_directory(into.file("figures"));
+    if (has_runs) write_results(into, collect_results(plan, from));
+    Results const results = read_results(has_runs ? into : from);
+    check_names(plan, results);
+    auto const comparisons = compare_treatments(plan, results);
+    Figures const figures = draw_figures(plan, results, comparisons);
+    write_text(into, "pvalues.csv", comparisons_csv(comparisons));
+    write_text(into, "summary.json", summary_json(plan, results, comparisons));
+    write_figures(into, figures);
+    write_text(into, "report.html", report_page(plan, results, comparisons, figures));
+    return what_is_missing(plan, results);
+}
+
+}   // namespace lore

@@ -1,0 +1,129 @@
+#include "campaign_fixture.h"
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/arena/arena.h>
+#include <lore/campaign/choice.h>
+#include <lore/campaign/replay_step.h>
+#include <lore/experiment/knowledge_building.h>
+#include <support/small_run.h>
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+namespace {
+
+constexpr char shown_campaign[] = R"(
+title = "One run each"
+runs = 1
+[source]
+config = "small.toml"
+[[knowledge]]
+name = "kb1"
+balls = 1
+[[treatment]]
+name = "none"
+config = "small.toml"
+[report]
+trajectory = "kb1"
+figure5 = ["kb1"]
+figure6 = ["kb1", "kb1"]
+)";
+
+}   // namespace
+
+/// A campaign of two runs of 400 steps that are really there, and the knowledge base of the first.
+class ReplayStepTest : public test::CampaignTest {
+protected:
+    ReplayStepTest() {
+        write("campaign.toml", shown_campaign);
+        write("small.toml",
+              "name = \"experiment\"\ntask = \"source\"\n[episode]\nsteps = 400\n[evolution]\npopulation = 8\n"
+              "founders = 16\ngenerations = 6\n[diversity]\nperiod = 2\n");
+    }
+    void make_run(std::string const& step, std::string const& signature) const {
+        std::string const run = directory().run(step), manifest_path = run + "/" + run_file::manifest;
+        if (!std::filesystem::exists(run)) test::write_small_run(run);
+        Manifest manifest = read_manifest(manifest_path);
+        manifest.seed = 1;
+        manifest.signature = signature;
+        write_manifest(manifest_path, manifest);
+    }
+    void make_knowledge() const {
+        RunDirectory const run = open_run(directory().run("source/001"));
+        std::filesystem::create_directories(scratch.file("c/knowledge"));
+        write_knowledge_base(directory().knowledge("kb1"),
+                             knowledge_of_lineage(run, *run.individual("best"), run.config.knowledge, IndexKind::exact,
+                                                  {}, [](std::int64_t, std::int64_t) {}));
+        write_choice(directory().choice(), {{{"kb1", 1, 1, 1, 0}}, {{1, 1, 0}}, {}});
+    }
+};
+
+TEST_F(ReplayStepTest, simulates_the_source_run_and_the_best_target_run_and_values_the_first) {
+    make_run("source/001", "00000000000000aa");
+    make_run("none/001", "00000000000000bb");
+    make_knowledge();
+    make_replays(plan(), directory(), directory());
+
+    Replays const shown = read_replays(directory());
+    ASSERT_EQ(shown.replays.size(), 2u);
+    EXPECT_EQ(shown.replays[0].run, "source/001");
+    EXPECT_EQ(shown.replays[1].run, "none/001");
+    EXPECT_EQ(shown.replays[1].signature, "00000000000000bb");
+    EXPECT_EQ(shown.replays[1].steps.size(), 400u);
+    EXPECT_EQ(shown.replays[0].scene, scene_of(load_arena("collectball", "source"))) << "to the bit";
+    ASSERT_EQ(shown.panels.size(), 2u);
+    ASSERT_EQ(shown.panels[0].values.size(), 20u) << "windows of 20 steps";
+    EXPECT_EQ(shown.panels[1].knowledge, "kb1*kb1");
+    for (std::size_t w = 0; w < 20; ++w) {
+        double const value = shown.panels[0].values[w];
+        EXPECT_NEAR(shown.panels[1].values[w], value < 0 ? 0 : value * value, 1e-3);
+    }
+}
+
+TEST_F(ReplayStepTest, is_done_until_there_is_something_else_to_show) {
+    EXPECT_EQ(state("replay").status, StepStatus::missing);
+    EXPECT_FALSE(replay_is_due(plan(), directory(), directory())) << "nothing to show yet";
+    EXPECT_THROW(make_replays(plan(), directory(), directory()), Error);
+    make_run("source/001", "00000000000000aa");
+    make_knowledge();
+    EXPECT_EQ(replay_is_due(plan(), directory(), directory()), "not made yet");
+    make_replays(plan(), directory(), directory());
+    EXPECT_EQ(state("replay").status, StepStatus::done);
+    EXPECT_TRUE(replay_is_due(plan(), directory(), directory("elsewhere"))) << "for a report elsewhere";
+
+    make_run("none/001", "00000000000000bb");
+    EXPECT_EQ(state("replay").status, StepStatus::missing);
+    make_replays(plan(), directory(), directory());
+    EXPECT_EQ(state("replay").status, StepStatus::done);
+    make_run("none/001", "00000000000000cc");
+    EXPECT_EQ(replay_is_due(plan(), directory(), directory()), "it should show none/001") << "it was made again";
+    make_replays(plan(), directory(), directory("made/elsewhere"));
+    EXPECT_FALSE(replay_is_due(plan(), directory(), directory("made/elsewhere")));
+    write("c/knowledge/kb1.lorekb", "another");
+    EXPECT_EQ(replay_is_due(plan(), directory(), directory("made/elsewhere")),
+              "there are other knowledge bases by now");
+}
+
+TEST_F(ReplayStepTest, comes_after_all_that_it_shows_and_does_without_what_failed) {
+    auto const steps = steps_of(plan());
+    EXPECT_EQ(steps.back().name, "replay");
+    EXPECT_EQ(steps.back().after, (std::vector<std::string>{"choose", "knowledge/kb1", "none"}));
+    EXPECT_TRUE(steps.back().takes_what_is_there);
+    EXPECT_EQ(shell_text(command_of(plan(), directory(), {}, steps.back(), nullptr)),
+              "lore-campaign replay " + scratch.file("campaign.toml") + " --dir " + scratch.file("c"));
+}
+
+TEST_F(ReplayStepTest, files_that_do_not_belong_together_are_refused) {
+    make_run("source/001", "00000000000000aa");
+    make_knowledge();
+    make_replays(plan(), directory(), directory());
+    std::string const text = read(directory().file("replay.csv"));
+    write("c/replay.csv", text.substr(0, text.find('\n') + 1) + "kb9/001,0,1,1,0,0,0,0,0,0\n");
+    EXPECT_THROW(read_replays(directory()), Error);
+    write("c/replay.csv", text.substr(0, text.find('\n') + 1));
+    EXPECT_THROW(read_replays(directory()), Error) << "no step at all";
+    write("c/scene.json", "{\"replays\": [{}]}");
+    EXPECT_THROW(read_scenes(directory()), Error);
+    EXPECT_EQ(replay_is_due(plan(), directory(), directory()), "scene.json is damaged");
+}
