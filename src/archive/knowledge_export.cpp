@@ -27,12 +27,39 @@ std::array<float, channel_count> channels_at(Window const& window, std::size_t s
 
 }   // namespace
 
+namespace {
+
+void append_evidence_names(std::string& csv, Evidence const& evidence) {
+    if (evidence.has_returns()) csv += ",showings";
+    for (double const gamma : evidence.gammas) fmt::format_to(std::back_inserter(csv), ",return_sum_{}", gamma);
+    if (evidence.has_credit) csv += ",news,gain_sum";
+    if (evidence.has_contrast()) csv += ",successes_that_showed,failures_that_showed";
+}
+
+void append_evidence(std::string& csv, Evidence const& evidence, std::size_t feature, std::size_t features) {
+    auto const append = [&](auto number) { fmt::format_to(std::back_inserter(csv), ",{}", number); };
+    if (evidence.has_returns()) append(evidence.showings[feature]);
+    for (std::size_t gamma = 0; gamma < evidence.gammas.size(); ++gamma)
+        append(evidence.return_sums[gamma * features + feature]);
+    if (evidence.has_credit) {
+        append(evidence.news[feature]);
+        append(evidence.gain_sums[feature]);
+    }
+    if (evidence.has_contrast()) {
+        append(evidence.successes_that_showed[feature]);
+        append(evidence.failures_that_showed[feature]);
+    }
+}
+
+}   // namespace
+
 std::string knowledge_csv(KnowledgeBase const& base) {
     std::string csv = "feature,value,reward_sum,count";
     auto const steps = static_cast<std::size_t>(base.config().window_length);
     for (std::size_t step = 0; step < steps; ++step)
         for (std::string_view const channel : channel_names)
             fmt::format_to(std::back_inserter(csv), ",{}_{}", channel, step);
+    append_evidence_names(csv, base.evidence());
     csv += '\n';
     for (int feature = 0; feature < base.size(); ++feature) {
         fmt::format_to(std::back_inserter(csv), "{},{},{},{}", feature, base.value(feature), base.reward_sum(feature),
@@ -40,6 +67,7 @@ std::string knowledge_csv(KnowledgeBase const& base) {
         Window const window = base.window(feature);
         for (std::size_t step = 0; step < steps; ++step)
             for (float const value : channels_at(window, step)) fmt::format_to(std::back_inserter(csv), ",{}", value);
+        append_evidence(csv, base.evidence(), static_cast<std::size_t>(feature), static_cast<std::size_t>(base.size()));
         csv += '\n';
     }
     return csv;
@@ -62,6 +90,21 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
     write_npy(file("values.npy"), base.values(), one);
     write_npy(file("reward_sums.npy"), base.parts().reward_sums, one);
     write_npy(file("counts.npy"), base.parts().counts, one);
+    Evidence const& evidence = base.evidence();
+    if (evidence.has_returns()) {
+        std::vector<double> const showings(evidence.showings.begin(), evidence.showings.end());
+        write_npy(file("gammas.npy"), std::span<double const>{evidence.gammas}, std::array{evidence.gammas.size()});
+        write_npy(file("showings.npy"), std::span<double const>{showings}, one);
+        write_npy(file("return_sums.npy"), evidence.return_sums, std::array{evidence.gammas.size(), features});
+    }
+    if (evidence.has_credit) {
+        write_npy(file("news.npy"), evidence.news, one);
+        write_npy(file("gain_sums.npy"), evidence.gain_sums, one);
+    }
+    if (evidence.has_contrast()) {
+        write_npy(file("successes_that_showed.npy"), evidence.successes_that_showed, one);
+        write_npy(file("failures_that_showed.npy"), evidence.failures_that_showed, one);
+    }
     write_file_atomically(file("provenance.json"), provenance_json(base.provenance()) + "\n");
 }
 

@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,9 +19,12 @@ namespace lore {
 
 namespace {
 
-constexpr std::uint32_t layout_version = 1;
+constexpr std::uint32_t layout_version = 2;   ///< 1: without evidence beyond reward sums and counts
 constexpr std::uint64_t alignment = 64;
 constexpr std::uint64_t most_features = 1u << 30;   ///< a feature's number is an int
+
+/// Preamble::evidence: which parts there are.
+enum EvidenceFlag : std::uint64_t { returns_flag = 1, credit_flag = 2, contrast_flag = 4 };
 
 /// The first bytes of the payload. The arrays follow in the order of Layout, the provenance as JSON at the end.
 struct Preamble {
@@ -29,18 +33,30 @@ struct Preamble {
     float match_threshold;
     std::uint32_t binary_channels;
     std::uint32_t continuous_channels;
-    std::uint32_t reserved;
+    std::uint32_t gammas;   ///< how many; this and the last three of layout 2 only, 0 in layout 1
     std::uint64_t features;
     std::uint64_t provenance_length;
-    std::uint64_t padding[3];
+    std::uint64_t evidence;
+    std::uint64_t padding[2];
+};
+
+/// How many successes and failures a contrast compares.
+struct ContrastTotals {
+    std::uint64_t successes, failures;
+    std::uint32_t success_balls;
+    std::uint32_t padding;
 };
 static_assert(sizeof(Preamble) == alignment && container_header_size % alignment == 0);
 
 /// Where each array starts in the payload [bytes].
 struct Layout {
-    std::uint64_t values, reward_sums, counts, windows, bits, provenance, end;
+    std::uint64_t values, reward_sums, counts, windows, bits;
+    // Of layout 2, each of them only if its part of the evidence is there.
+    std::uint64_t gammas, showings, return_sums, news, gain_sums, contrast, successes, failures;
+    std::uint64_t provenance, end;
 
-    Layout(std::uint64_t features, std::uint64_t steps, std::uint64_t provenance_length) {
+    explicit Layout(Preamble const& preamble) {
+        std::uint64_t const features = preamble.features, steps = preamble.window_length;
         std::uint64_t at = sizeof(Preamble);
         auto const take = [&at](std::uint64_t bytes) {
             std::uint64_t const start = at;
@@ -52,8 +68,19 @@ struct Layout {
         counts = take(features * sizeof(std::uint32_t));
         windows = take(features * steps * continuous_count * sizeof(float));
         bits = take(features * steps * sizeof(std::uint16_t));
+        auto const take_if = [&](EvidenceFlag flag, std::uint64_t bytes) {
+            return (preamble.evidence & flag) != 0 ? take(bytes) : at;
+        };
+        gammas = take_if(returns_flag, preamble.gammas * sizeof(double));
+        showings = take_if(returns_flag, features * sizeof(std::uint64_t));
+        return_sums = take_if(returns_flag, preamble.gammas * features * sizeof(double));
+        news = take_if(credit_flag, features * sizeof(std::uint32_t));
+        gain_sums = take_if(credit_flag, features * sizeof(double));
+        contrast = take_if(contrast_flag, sizeof(ContrastTotals));
+        successes = take_if(contrast_flag, features * sizeof(std::uint32_t));
+        failures = take_if(contrast_flag, features * sizeof(std::uint32_t));
         provenance = at;
-        end = at + provenance_length;
+        end = at + preamble.provenance_length;
     }
 };
 
@@ -66,6 +93,7 @@ Provenance provenance_of(std::string_view text) {
     json.at("sources").get_to(provenance.sources);
     json.at("derivation").get_to(provenance.derivation);
     json.at("task").get_to(provenance.task);
+    if (json.contains("value")) json.at("value").get_to(provenance.value);
     provenance.individuals = whole_number<std::uint64_t>(json.at("individuals"));
     provenance.windows = whole_number<std::uint64_t>(json.at("windows"));
     provenance.best_balls = whole_number<int>(json.at("best_balls"));
@@ -109,6 +137,10 @@ Preamble checked_preamble(std::span<std::byte const> payload, std::string const&
             fmt::format("written by a newer Lore: layout {}, this one reads {}", preamble.layout, layout_version),
             "Update Lore.");
     if (preamble.layout == 0) refuse(path, "its layout is unknown");
+    if (preamble.layout == 1) preamble.gammas = 0, preamble.evidence = 0;
+    if ((preamble.evidence & ~std::uint64_t{returns_flag | credit_flag | contrast_flag}) != 0 ||
+        preamble.gammas > most_gammas || (preamble.gammas > 0) != ((preamble.evidence & returns_flag) != 0))
+        refuse(path, "its evidence is of no known kind");
     if (preamble.binary_channels != binary_count || preamble.continuous_channels != continuous_count)
         refuse(path,
                fmt::format("it has {} binary and {} continuous channels, this Lore has {} and {}",
@@ -119,9 +151,30 @@ Preamble checked_preamble(std::span<std::byte const> payload, std::string const&
         refuse(path, fmt::format("a match threshold of {}", preamble.match_threshold));
     // Bounding both numbers by what the file could hold keeps the sums of Layout far from overflow.
     if (preamble.features > most_features || preamble.provenance_length > payload.size() ||
-        Layout{preamble.features, preamble.window_length, preamble.provenance_length}.end != payload.size())
+        Layout{preamble}.end != payload.size())
         refuse(path, fmt::format("{} features do not fit its length", preamble.features));
     return preamble;
+}
+
+std::string why_invalid(Evidence const& evidence) {
+    auto const not_finite = [](double value) { return !std::isfinite(value); };
+    auto const no_discount = [](double gamma) { return !(gamma > 0 && gamma < 1); };
+    std::vector<double> const& gammas = evidence.gammas;
+    if (std::any_of(gammas.begin(), gammas.end(), no_discount) ||
+        std::adjacent_find(gammas.begin(), gammas.end(), std::greater_equal<>{}) != gammas.end())
+        return "its gammas are no increasing discounts";
+    if (std::find(evidence.showings.begin(), evidence.showings.end(), 0u) != evidence.showings.end())
+        return "a feature that nobody showed";
+    if (std::any_of(evidence.return_sums.begin(), evidence.return_sums.end(), not_finite) ||
+        std::any_of(evidence.gain_sums.begin(), evidence.gain_sums.end(), not_finite))
+        return "a feature's evidence is not finite";
+    auto const more_than = [](std::uint64_t all) { return [all](std::uint32_t count) { return count > all; }; };
+    if (std::any_of(evidence.successes_that_showed.begin(), evidence.successes_that_showed.end(),
+                    more_than(evidence.successes)) ||
+        std::any_of(evidence.failures_that_showed.begin(), evidence.failures_that_showed.end(),
+                    more_than(evidence.failures)))
+        return "a feature that more have shown than there were";
+    return "";
 }
 
 /// The first number outside its range, told as a reason; "" if there is none.
@@ -137,37 +190,76 @@ std::string why_invalid(KnowledgeBase::Parts const& parts) {
         return "a feature's value is not finite";
     if (std::find(parts.counts.begin(), parts.counts.end(), 0u) != parts.counts.end())
         return "a feature that nobody exhibited";
-    return "";
+    return why_invalid(parts.evidence);
+}
+
+Preamble preamble_of(KnowledgeBase::Parts const& parts, std::size_t provenance_length) {
+    Evidence const& evidence = parts.evidence;
+    Preamble preamble{};
+    preamble.layout = evidence.none() ? 1 : layout_version;
+    preamble.window_length = static_cast<std::uint32_t>(parts.config.window_length);
+    preamble.match_threshold = parts.config.match_threshold;
+    preamble.binary_channels = binary_count;
+    preamble.continuous_channels = continuous_count;
+    preamble.gammas = static_cast<std::uint32_t>(evidence.gammas.size());
+    preamble.features = parts.values.size();
+    preamble.provenance_length = provenance_length;
+    if (evidence.has_returns()) preamble.evidence |= returns_flag;
+    if (evidence.has_credit) preamble.evidence |= credit_flag;
+    if (evidence.has_contrast()) preamble.evidence |= contrast_flag;
+    return preamble;
+}
+
+Evidence evidence_in(std::span<std::byte const> payload, Preamble const& preamble, Layout const& layout,
+                     std::string const& path) {
+    std::uint64_t const features = preamble.features;
+    Evidence evidence;
+    if ((preamble.evidence & returns_flag) != 0) {
+        auto const gammas = view<double>(payload, layout.gammas, preamble.gammas);
+        evidence.gammas.assign(gammas.begin(), gammas.end());
+        evidence.showings = view<std::uint64_t>(payload, layout.showings, features);
+        evidence.return_sums = view<double>(payload, layout.return_sums, preamble.gammas * features);
+    }
+    if ((preamble.evidence & credit_flag) != 0) {
+        evidence.has_credit = true;
+        evidence.news = view<std::uint32_t>(payload, layout.news, features);
+        evidence.gain_sums = view<double>(payload, layout.gain_sums, features);
+    }
+    if ((preamble.evidence & contrast_flag) != 0) {
+        ContrastTotals const totals = view<ContrastTotals>(payload, layout.contrast, 1)[0];
+        if (totals.success_balls == 0) refuse(path, "its successes need no balls");
+        evidence.success_balls = totals.success_balls;
+        evidence.successes = totals.successes;
+        evidence.failures = totals.failures;
+        evidence.successes_that_showed = view<std::uint32_t>(payload, layout.successes, features);
+        evidence.failures_that_showed = view<std::uint32_t>(payload, layout.failures, features);
+    }
+    return evidence;
 }
 
 }   // namespace
 
 std::string provenance_json(Provenance const& provenance) {
-    return nlohmann::ordered_json{{"made_by", provenance.made_by},
-                                  {"kind", provenance.kind},
-                                  {"index", provenance.index},
-                                  {"sources", provenance.sources},
-                                  {"derivation", provenance.derivation},
-                                  {"task", provenance.task},
-                                  {"individuals", provenance.individuals},
-                                  {"windows", provenance.windows},
-                                  {"best_balls", provenance.best_balls}}
-        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    nlohmann::ordered_json json{{"made_by", provenance.made_by},
+                                {"kind", provenance.kind},
+                                {"index", provenance.index},
+                                {"sources", provenance.sources},
+                                {"derivation", provenance.derivation},
+                                {"task", provenance.task},
+                                {"individuals", provenance.individuals},
+                                {"windows", provenance.windows},
+                                {"best_balls", provenance.best_balls}};
+    if (!provenance.value.empty()) json["value"] = provenance.value;
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     KnowledgeBase::Parts const& parts = base.parts();
     std::string const provenance = provenance_json(parts.provenance);
-    auto const features = static_cast<std::uint64_t>(base.size());
-    Layout const layout{features, static_cast<std::uint64_t>(parts.config.window_length), provenance.size()};
-    Preamble preamble{};
-    preamble.layout = layout_version;
-    preamble.window_length = static_cast<std::uint32_t>(parts.config.window_length);
-    preamble.match_threshold = parts.config.match_threshold;
-    preamble.binary_channels = binary_count;
-    preamble.continuous_channels = continuous_count;
-    preamble.features = features;
-    preamble.provenance_length = provenance.size();
+    Evidence const& evidence = parts.evidence;
+    Preamble const preamble = preamble_of(parts, provenance.size());
+    Layout const layout{preamble};
+    ContrastTotals const totals{evidence.successes, evidence.failures, evidence.success_balls, 0};
 
     PayloadPieces payload;
     payload.place(0, std::span<Preamble const>{&preamble, 1});
@@ -176,6 +268,20 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     payload.place(layout.counts, parts.counts);
     payload.place(layout.windows, parts.windows);
     payload.place(layout.bits, parts.bits);
+    if (evidence.has_returns()) {
+        payload.place(layout.gammas, std::span<double const>{evidence.gammas});
+        payload.place(layout.showings, evidence.showings);
+        payload.place(layout.return_sums, evidence.return_sums);
+    }
+    if (evidence.has_credit) {
+        payload.place(layout.news, evidence.news);
+        payload.place(layout.gain_sums, evidence.gain_sums);
+    }
+    if (evidence.has_contrast()) {
+        payload.place(layout.contrast, std::span<ContrastTotals const>{&totals, 1});
+        payload.place(layout.successes, evidence.successes_that_showed);
+        payload.place(layout.failures, evidence.failures_that_showed);
+    }
     payload.place(layout.provenance, std::span<char const>{provenance});
     write_plain_container(path, FileKind::knowledge_base, payload.pieces());
 }
@@ -183,7 +289,7 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
 KnowledgeBase read_knowledge_base(std::string const& path) {
     MappedPayload const mapped = map_container(path, FileKind::knowledge_base);
     Preamble const preamble = checked_preamble(mapped.bytes, path);
-    Layout const layout{preamble.features, preamble.window_length, preamble.provenance_length};
+    Layout const layout{preamble};
     std::uint64_t const steps = preamble.features * preamble.window_length;
     KnowledgeBase::Parts parts{{static_cast<int>(preamble.window_length), preamble.match_threshold},
                                {},
@@ -192,7 +298,8 @@ KnowledgeBase read_knowledge_base(std::string const& path) {
                                view<double>(mapped.bytes, layout.values, preamble.features),
                                view<double>(mapped.bytes, layout.reward_sums, preamble.features),
                                view<std::uint32_t>(mapped.bytes, layout.counts, preamble.features),
-                               mapped.keep_alive};
+                               mapped.keep_alive,
+                               evidence_in(mapped.bytes, preamble, layout, path)};
     if (std::string const reason = why_invalid(parts); !reason.empty()) refuse(path, reason);
     try {
         auto const text = view<char>(mapped.bytes, layout.provenance, preamble.provenance_length);

@@ -9,15 +9,23 @@ namespace lore {
 
 namespace {
 
-float squared_distance(Pose const& pose, Point const& point) {
-    float const dx = pose.x - point.x, dy = pose.y - point.y;
+/// Below it the effector that collects lets go.
+constexpr float collecting_from = 0.5f;
+
+float squared_distance(Point const& from, Point const& point) {
+    float const dx = from.x - point.x, dy = from.y - point.y;
     return dx * dx + dy * dy;
+}
+float squared_distance(Pose const& pose, Point const& point) { return squared_distance(Point{pose.x, pose.y}, point); }
+
+bool in_basket(Arena const& arena, Point const& position) {
+    return squared_distance(position, arena.basket_center) <= arena.geometry->basket_radius_squared;
 }
 
 void release(Arena const& arena, Pose const& pose, WorldState& world) {
     world.released[static_cast<std::size_t>(world.carried)] = {pose.x, pose.y};
     world.carried = -1;
-    if (squared_distance(pose, arena.basket_center) <= arena.geometry->basket_radius_squared) ++world.collected;
+    if (in_basket(arena, {pose.x, pose.y})) ++world.collected;
 }
 
 /// The first ball in index order that lies within reach, or -1.
@@ -84,12 +92,16 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     return sensors;
 }
 
+bool delivers(Arena const& arena, Point position, bool carrying, float collect) {
+    return carrying && collect < collecting_from && in_basket(arena, position);
+}
+
 void act(Arena const& arena, Pose const& pose, Effectors const& effectors, WorldState& world) {
     if (arena.task.switch_pause > 0 && !world.switch_lit) {
         if (world.switch_timer > 0) --world.switch_timer;
         else world.switch_lit = true;
     }
-    bool const collecting = effectors[effector_place(Channel::collect)] >= 0.5f;
+    bool const collecting = effectors[effector_place(Channel::collect)] >= collecting_from;
     if (!collecting && world.carrying()) release(arena, pose, world);
     if (!collecting || world.carrying()) return;
     if (int const ball = ball_within_reach(arena, pose, world); ball >= 0) {

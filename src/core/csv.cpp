@@ -32,11 +32,7 @@ std::size_t split(std::string_view line, std::vector<std::string_view>& fields) 
 }   // namespace
 
 CsvTable CsvTable::read(std::string const& path, std::string_view remedy) {
-    std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path))
-        throw Error(fmt::format("cannot read {}", path), "no such file, or not readable", remedy);
-    std::string text{std::istreambuf_iterator<char>{file}, {}};
-    return CsvTable{path, std::move(text), remedy};
+    return CsvTable{path, read_text(path), remedy};
 }
 
 CsvTable::CsvTable(std::string path, std::string text, std::string_view remedy)

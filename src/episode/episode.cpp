@@ -55,6 +55,7 @@ Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig c
     trace.final_world = simulate(arena, network, config, [&](StepView const& view) {
         trace.bits.push_back(trace_bits(view.sensors, view.effectors));
         trace.poses.push_back(view.pose);
+        if (view.world.collected > static_cast<int>(trace.deliveries.size())) trace.deliveries.push_back(view.step);
         for (int const c : continuous_channels) trace.values.push_back(channel_value(view.sensors, view.effectors, c));
     });
     return trace;

@@ -88,11 +88,20 @@ private:
 /// Thrown through a reader of the archive once nobody wants more; never leaves this file.
 struct Abandoned {};
 
+/// Where the channels that decide a delivery are among the bits and the values of a step.
+constexpr std::size_t place_in(auto const& channels, Channel wanted) {
+    std::size_t place = 0;
+    while (channels[place] != static_cast<int>(wanted)) ++place;
+    return place;
+}
+constexpr unsigned carrying_bit = 1u << place_in(binary_channels, Channel::carrying);
+constexpr std::size_t collect_place = place_in(continuous_channels, Channel::collect);
+
 /// Gathers the sensorimotor records of episodes that run in lanes.
 class Recorder : public LaneClient {
 public:
-    Recorder(std::span<Network const> networks, std::vector<Trace>& traces)
-        : networks_(networks), order_(largest_first(networks)), traces_(traces) {}
+    Recorder(Arena const& arena, std::span<Network const> networks, std::vector<Trace>& traces)
+        : arena_(arena), networks_(networks), order_(largest_first(networks)), traces_(traces) {}
 
     Network const* next(int lane) override {
         if (next_ == order_.size()) return nullptr;
@@ -107,6 +116,7 @@ public:
             auto const steps = static_cast<std::size_t>(valid[lane]);
             if (steps == 0) continue;
             Trace& trace = traces_[episodes_[lane]];
+            record_deliveries(chunk, lane, steps, trace);
             for (std::size_t step = 0; step < steps; ++step) trace.bits.push_back(chunk.words[step * width + lane]);
             for (std::size_t i = 0; i < steps * continuous_count; ++i)
                 trace.values.push_back(chunk.values[i * width + lane]);
@@ -126,6 +136,19 @@ public:
     }
 
 private:
+    /// Before the chunk's steps are appended to the trace.
+    void record_deliveries(LaneChunk const& chunk, std::size_t lane, std::size_t steps, Trace& trace) const {
+        auto const width = static_cast<std::size_t>(chunk.width);
+        for (std::size_t step = 0; step < steps; ++step) {
+            std::size_t const at = step * width + lane;
+            if ((chunk.words[at] & carrying_bit) == 0) continue;
+            float const collect = chunk.values[(step * continuous_count + collect_place) * width + lane];
+            if (delivers(arena_, {chunk.x[at], chunk.y[at]}, true, collect))
+                trace.deliveries.push_back(trace.steps() + static_cast<int>(step));
+        }
+    }
+
+    Arena const& arena_;
     std::span<Network const> networks_;
     std::vector<int> order_;
     std::size_t next_ = 0;
@@ -139,21 +162,23 @@ void simulate(RunDirectory const& run, Batch& batch) {
         trace.bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
         trace.values.reserve(static_cast<std::size_t>(run.config.episode.steps) * continuous_count);
     }
-    Recorder recorder{batch.networks, batch.traces};
+    Recorder recorder{run.arena, batch.networks, batch.traces};
     run_in_lanes(run.arena, run.config.episode, chunk_steps, recorder);
-    for (std::size_t i = 0; i < batch.size(); ++i)
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        assert(std::cmp_equal(batch.traces[i].deliveries.size(), batch.traces[i].final_world.collected));
         if (batch.traces[i].final_world.collected != batch.balls[i])
             throw Error(
                 fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
                 fmt::format("{} balls now, {} in its archive", batch.traces[i].final_world.collected, batch.balls[i]),
                 "Build with the version of Lore and the arena file that the run was made with.");
+    }
 }
 
 /// Calls its argument for each individual in the order of building.
 using Source = std::function<void(std::function<void(IndividualId, Genome const&, int balls)> const&)>;
 
 KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig const& config, IndexKind kind,
-                    Provenance provenance, BuildingObserver const& observe) {
+                    Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence) {
     BatchQueue queue;
     std::thread simulator{[&] {
         try {
@@ -183,17 +208,17 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
         }
     } const join{queue, simulator};
 
-    KnowledgeBuilder builder{config, make_index(kind, config)};
+    KnowledgeBuilder builder{config, make_index(kind, config), std::move(evidence)};
     int const threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
-            exhibits.push_back(
-                {windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i])});
+            exhibits.push_back({windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i]),
+                                batch.traces[i].deliveries, batch.ids[i].generation});
         if (kind == IndexKind::exact) {
             builder.add_individuals(exhibits, threads);
         } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
-            for (Exhibit const& exhibit : exhibits) builder.add_individual(exhibit.windows, exhibit.balls);
+            for (Exhibit const& exhibit : exhibits) builder.add_individual(exhibit);
         }
         observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
@@ -205,18 +230,23 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
 
 }   // namespace
 
+std::vector<double> default_gammas() { return {0.99, 0.995, 0.998}; }
+
 KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individual, KnowledgeConfig const& config,
-                                   IndexKind kind, Provenance provenance, BuildingObserver const& observe) {
+                                   IndexKind kind, Provenance provenance, BuildingObserver const& observe,
+                                   std::vector<double> gammas) {
     provenance.kind = "lineage";
     provenance.best_balls = individual.balls;
     Source const lineage = [&](auto const& each) {
         for (Birth const* ancestor : lineage_of(individual)) each(ancestor->id, ancestor->genome, ancestor->balls);
     };
-    return build(run, lineage, config, kind, std::move(provenance), observe);
+    EvidenceConfig evidence{std::move(gammas), true, 0};
+    return build(run, lineage, config, kind, std::move(provenance), observe, std::move(evidence));
 }
 
 KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexKind kind,
-                               Provenance provenance, BuildingObserver const& observe) {
+                               Provenance provenance, BuildingObserver const& observe, std::vector<double> gammas,
+                               int success_balls) {
     assert(every >= 1);
     archived_individuals(run);
     provenance.kind = "all";
@@ -229,7 +259,9 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
                                     each(individual.id, individual.genome, individual.balls);
                             });
     };
-    return build(run, everybody, config, kind, std::move(provenance), observe);
+    if (success_balls == 0) success_balls = std::max(1, (provenance.best_balls + 1) / 2);
+    EvidenceConfig evidence{std::move(gammas), false, success_balls};
+    return build(run, everybody, config, kind, std::move(provenance), observe, std::move(evidence));
 }
 
 std::uint64_t archived_individuals(RunDirectory const& run) {

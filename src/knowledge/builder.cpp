@@ -1,4 +1,6 @@
-#include <lore/knowledge/builder.h>
+#include "evidence_gatherer.h"
+
+#include <lore/knowledge/value.h>
 
 #include <algorithm>
 #include <atomic>
@@ -7,16 +9,27 @@
 
 namespace lore {
 
-KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<FeatureIndex> index)
+KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<FeatureIndex> index, EvidenceConfig evidence)
     : config_(config), index_(std::move(index)) {
     assert(index_->size() == 0);
+    bool const wanted = !evidence.gammas.empty() || evidence.credit || evidence.success_balls > 0;
+    if (wanted) evidence_ = std::make_unique<EvidenceGatherer>(std::move(evidence), config.window_length);
     searches_.push_back(index_->search());
 }
 
-void KnowledgeBuilder::add_individual(std::span<Window const> windows, double balls) {
+KnowledgeBuilder::~KnowledgeBuilder() = default;
+KnowledgeBuilder::KnowledgeBuilder(KnowledgeBuilder&&) noexcept = default;
+
+void KnowledgeBuilder::begin_individual(Exhibit const& exhibit) {
     ++individuals_;   // numbers individuals from 1, so that 0 in last_exhibitor_ is nobody
-    windows_ += windows.size();
-    for (Window const& window : windows) {
+    windows_ += exhibit.windows.size();
+    if (evidence_) evidence_->begin(exhibit);
+}
+
+void KnowledgeBuilder::add_individual(Exhibit const& exhibit) {
+    begin_individual(exhibit);
+    for (std::size_t i = 0; i < exhibit.windows.size(); ++i) {
+        Window const& window = exhibit.windows[i];
         int feature = searches_.front()->match(window).feature;
         if (feature >= 0) {
             ++matched_;
@@ -24,8 +37,9 @@ void KnowledgeBuilder::add_individual(std::span<Window const> windows, double ba
             index_->add(window);
             feature = add_feature();
         }
-        reward(feature, balls);
+        show(feature, i, exhibit.balls);
     }
+    if (evidence_) evidence_->end();
 }
 
 /// The long part, finding each window's nearest feature among those known before, changes nothing and can be shared.
@@ -42,9 +56,9 @@ void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int th
     std::vector<Window const*> added;
     std::size_t next = 0;
     for (Exhibit const& exhibit : exhibits) {
-        ++individuals_;
-        windows_ += exhibit.windows.size();
-        for (Window const& window : exhibit.windows) {
+        begin_individual(exhibit);
+        for (std::size_t i = 0; i < exhibit.windows.size(); ++i) {
+            Window const& window = exhibit.windows[i];
             Match match = known[next++];
             if (Match const among_fresh = fresh_search->match(window);
                 among_fresh.squared_distance < match.squared_distance)
@@ -56,8 +70,9 @@ void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int th
                 added.push_back(&window);
                 match.feature = add_feature();
             }
-            reward(match.feature, exhibit.balls);
+            show(match.feature, i, exhibit.balls);
         }
+        if (evidence_) evidence_->end();
     }
     for (Window const* window : added) index_->add(*window);
 }
@@ -84,12 +99,15 @@ int KnowledgeBuilder::add_feature() {
     sums_.push_back(0);
     counts_.push_back(0);
     last_exhibitor_.push_back(0);
+    if (evidence_) evidence_->add_feature();
     return features() - 1;
 }
 
-void KnowledgeBuilder::reward(int feature, double balls) {
+void KnowledgeBuilder::show(int feature, std::size_t window, double balls) {
     auto const i = static_cast<std::size_t>(feature);
-    if (last_exhibitor_[i] == individuals_) return;
+    bool const first = last_exhibitor_[i] != individuals_;
+    if (evidence_) evidence_->show(feature, window, first);
+    if (!first) return;
     last_exhibitor_[i] = individuals_;
     sums_[i] += balls;
     ++counts_[i];
@@ -98,15 +116,16 @@ void KnowledgeBuilder::reward(int feature, double balls) {
 KnowledgeBase KnowledgeBuilder::finish(Provenance provenance) && {
     provenance.individuals = individuals_;
     provenance.windows = windows_;
+    if (evidence_) provenance.value = text(ValueConfig{});
     std::vector<double> means(sums_.size());
-    for (std::size_t i = 0; i < means.size(); ++i) means[i] = sums_[i] / counts_[i];
+    for (std::size_t i = 0; i < means.size(); ++i) means[i] = mean_value(sums_[i], counts_[i]);
     searches_.clear();
     FeatureWindows windows = index_->release();
     index_.reset();
-    return KnowledgeBase{
-        config_,
-        std::move(provenance),
-        {std::move(windows.bits), std::move(windows.values), std::move(means), std::move(sums_), std::move(counts_)}};
+    return KnowledgeBase{config_,
+                         std::move(provenance),
+                         {std::move(windows.bits), std::move(windows.values), std::move(means), std::move(sums_),
+                          std::move(counts_), evidence_ ? std::move(*evidence_).finish() : EvidenceArrays{}}};
 }
 
 }   // namespace lore

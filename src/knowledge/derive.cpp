@@ -26,6 +26,34 @@ std::vector<int> features_where(KnowledgeBase const& base, auto const& holds) {
     return features;
 }
 
+Provenance derived(KnowledgeBase const& base, char const* kind, std::string what) {
+    Provenance provenance = base.provenance();
+    provenance.kind = kind;
+    provenance.derivation.push_back(std::move(what));
+    return provenance;
+}
+
+/// The evidence of some of the features.
+EvidenceArrays evidence_of(Evidence const& all, std::vector<int> const& features, std::size_t before) {
+    EvidenceArrays kept;
+    auto const take = [&](auto& to, auto const& from) {
+        for (std::size_t first = 0; first < from.size(); first += before)
+            for (int const feature : features) to.push_back(from[first + static_cast<std::size_t>(feature)]);
+    };
+    kept.gammas = all.gammas;
+    kept.has_credit = all.has_credit;
+    kept.success_balls = all.success_balls;
+    kept.successes = all.successes;
+    kept.failures = all.failures;
+    take(kept.showings, all.showings);
+    take(kept.return_sums, all.return_sums);
+    take(kept.news, all.news);
+    take(kept.gain_sums, all.gain_sums);
+    take(kept.successes_that_showed, all.successes_that_showed);
+    take(kept.failures_that_showed, all.failures_that_showed);
+    return kept;
+}
+
 KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, std::string what) {
     KnowledgeArrays kept;
     for (int const feature : features) {
@@ -36,20 +64,11 @@ KnowledgeBase keep(KnowledgeBase const& base, std::vector<int> const& features, 
         kept.reward_sums.push_back(base.reward_sum(feature));
         kept.counts.push_back(base.count(feature));
     }
-    Provenance provenance = base.provenance();
-    provenance.kind = "reduced";
-    provenance.derivation.push_back(fmt::format("{}: {} of {} features", what, features.size(), base.size()));
-    return KnowledgeBase{base.config(), std::move(provenance), std::move(kept)};
-}
-
-/// The same features with other values.
-KnowledgeBase with_values(KnowledgeBase const& base, std::vector<double> values, char const* kind, std::string what) {
-    KnowledgeArrays arrays{copy_of(base.parts().bits), copy_of(base.parts().windows), std::move(values),
-                           copy_of(base.parts().reward_sums), copy_of(base.parts().counts)};
-    Provenance provenance = base.provenance();
-    provenance.kind = kind;
-    provenance.derivation.push_back(std::move(what));
-    return KnowledgeBase{base.config(), std::move(provenance), std::move(arrays)};
+    kept.evidence = evidence_of(base.evidence(), features, static_cast<std::size_t>(base.size()));
+    return KnowledgeBase{
+        base.config(),
+        derived(base, "reduced", fmt::format("{}: {} of {} features", what, features.size(), base.size())),
+        std::move(kept)};
 }
 
 }   // namespace
@@ -61,13 +80,26 @@ KnowledgeBase randomize(KnowledgeBase const& base, std::uint64_t seed) {
         Stream rng{seed, Purpose::randomize};
         for (double& value : values) value = rng.uniform(*low, *high);
     }
-    return with_values(base, std::move(values), "random", fmt::format("values drawn at random with seed {}", seed));
+    return base.with_values(std::move(values),
+                            derived(base, "random", fmt::format("values drawn at random with seed {}", seed)));
 }
 
 KnowledgeBase permute(KnowledgeBase const& base, std::uint64_t seed) {
     std::vector<double> values = copy_of(base.values());
     Stream{seed, Purpose::permute}.shuffle(std::span{values});
-    return with_values(base, std::move(values), "permuted", fmt::format("values shuffled with seed {}", seed));
+    return base.with_values(std::move(values),
+                            derived(base, "permuted", fmt::format("values shuffled with seed {}", seed)));
+}
+
+KnowledgeBase revalue(KnowledgeBase const& base, ValueConfig const& config) {
+    KnowledgeBase const with_new = valued(base, config);
+    std::string const& kind = base.provenance().kind;
+    bool const untrue = kind == "random" || kind == "permuted";
+    Provenance provenance = derived(with_new, untrue ? "revalued" : kind.c_str(),
+                                    fmt::format("valued by rule {}", with_new.provenance().value));
+    KnowledgeBase::Parts parts = with_new.parts();
+    parts.provenance = std::move(provenance);
+    return KnowledgeBase{std::move(parts)};
 }
 
 KnowledgeBase keep_top(KnowledgeBase const& base, int count) {

@@ -185,6 +185,46 @@ TEST_F(LoreKb, derives_and_multiplies) {
     expect_refusal("reduce kb.lorekb --top 3 --min-value 1 --out x.lorekb", 2, "one rule");
 }
 
+TEST_F(LoreKb, values_features_anew_from_the_evidence_of_the_build) {
+    expect_done("build run --out kb.lorekb --gammas 0.9 0.5");
+    auto const told = nlohmann::json::parse(run("info kb.lorekb --json").output);
+    EXPECT_EQ(told.at("evidence").at("returns").at("gammas"), (std::vector<double>{0.5, 0.9}));
+    EXPECT_TRUE(told.at("evidence").contains("credit"));
+    EXPECT_EQ(told.at("provenance").at("value"), "mean");
+    EXPECT_THAT(run("info kb.lorekb").output, HasSubstr("returns for gamma 0.5, 0.9"));
+
+    expect_done("revalue kb.lorekb --value return --gamma 0.9 --out return.lorekb");
+    expect_done("build run --out built.lorekb --value return --gamma 0.9 --gammas 0.5");
+    KnowledgeBase const revalued = read_knowledge_base(scratch.file("return.lorekb"));
+    KnowledgeBase const built = read_knowledge_base(scratch.file("built.lorekb"));
+    EXPECT_TRUE(std::equal(revalued.values().begin(), revalued.values().end(), built.values().begin()));
+    EXPECT_EQ(built.provenance().value, "return 0.9");
+    EXPECT_THAT(revalued.provenance().derivation.back(), HasSubstr("return 0.9"));
+    expect_done("verify return.lorekb");
+    expect_done("export return.lorekb --npy exported");
+    expect_done("verify exported/return_sums.npy");
+
+    expect_done("build run --all --success 1 --out all.lorekb");
+    expect_refusal("revalue all.lorekb --value credit --out never", 2, "needs evidence that the base does not have");
+    expect_refusal("revalue kb.lorekb --value contrast --out never", 2, "needs evidence that the base does not have");
+    expect_refusal("revalue kb.lorekb --value return --gamma 0.7 --out never", 2, "gamma 0.5, 0.9, not 0.7");
+    for (char const* gamma : {"0", "1", "-1", "nan", "2"})
+        expect_refusal("revalue kb.lorekb --value return --gamma " + std::string{gamma} + " --out never", 2,
+                       "discount");
+    expect_refusal("revalue kb.lorekb --value median --out never", 2, "mean, return, contrast, credit");
+    expect_refusal("revalue kb.lorekb --value mean --gamma 0.9 --out never", 2, "only return discounts");
+    expect_refusal("build run --value contrast --out never", 2, "a lineage has no contemporaries");
+    expect_refusal("build run --value return --gamma 1 --out never", 2, "discount");
+    expect_refusal("build run --gammas 0.5 1 --out never", 2, "discount");
+    expect_refusal("build run --success 2 --out never", 2, "--all");
+}
+
+TEST_F(LoreKb, reads_a_base_of_the_first_layout_but_finds_no_evidence_in_it) {
+    std::string const old = LORE_SOURCE_DIR "/tests/data/version-1/sample.lorekb";
+    expect_done("revalue " + old + " --value mean --out mean.lorekb");
+    expect_refusal("revalue " + old + " --value return --out never", 2, "needs evidence that the base does not have");
+}
+
 TEST_F(LoreKb, refuses_in_one_line_what_it_cannot_do) {
     expect_refusal("", 2, "subcommand");
     expect_refusal("build nowhere --out x.lorekb", 2, "nowhere");

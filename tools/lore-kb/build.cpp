@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lore::kb {
 
 namespace {
@@ -19,6 +21,10 @@ struct Options {
     int every = 1;   ///< of all
     std::optional<int> window_length;
     std::optional<float> threshold;
+    std::string value = "mean";
+    std::optional<double> gamma;
+    std::vector<double> gammas = default_gammas();
+    int success = 0;   ///< of all
 };
 
 KnowledgeConfig config_of(Options const& options, RunDirectory const& run) {
@@ -32,9 +38,37 @@ KnowledgeConfig config_of(Options const& options, RunDirectory const& run) {
     return config;
 }
 
+/// Refuses a rule whose evidence such a build does not gather, before it starts.
+void check_evidence(Options const& options, ValueConfig const& value) {
+    auto const refuse = [&](char const* why, char const* remedy) {
+        throw UsageError(fmt::format("value rule {} needs evidence that the base does not have", name(value.rule)), why,
+                         remedy);
+    };
+    if (value.rule == ValueRule::contrast && !options.all)
+        refuse("a lineage has no contemporaries", "Build with --all, or --all --every N.");
+    if (value.rule == ValueRule::credit && options.all)
+        refuse("it takes pairs of parent and child of a lineage", "Build without --all.");
+}
+
+/// Those that were asked for, in increasing order, each once.
+std::vector<double> gammas_of(Options const& options, ValueConfig const& value) {
+    std::vector<double> gammas = options.gammas;
+    if (value.rule == ValueRule::discounted_return) gammas.push_back(value.gamma);
+    for (double const gamma : gammas) check_gamma(gamma);
+    std::sort(gammas.begin(), gammas.end());
+    gammas.erase(std::unique(gammas.begin(), gammas.end()), gammas.end());
+    if (gammas.size() > most_gammas)
+        throw UsageError(fmt::format("cannot gather returns for {} gammas", gammas.size()),
+                         fmt::format("at most {} fit into a knowledge base", most_gammas), "Give fewer.");
+    return gammas;
+}
+
 void build(Program const& program, Options const& options) {
     if (options.all && options.individual)
         throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
+    ValueConfig const value = value_config(options.value, options.gamma);
+    check_evidence(options, value);
+    std::vector<double> const gammas = gammas_of(options, value);
     check_writable(options.out);
     IndexKind const kind = index_kind(options.index);
     RunDirectory const run = open_run(options.run);
@@ -49,9 +83,10 @@ void build(Program const& program, Options const& options) {
     };
     Provenance provenance;
     provenance.made_by = made_by(program);
-    KnowledgeBase const base = options.all ? knowledge_of_all(run, options.every, config, kind, provenance, observe)
-                                           : knowledge_of_lineage(run, *individual, config, kind, provenance, observe);
-    write_knowledge_base(options.out, base);
+    KnowledgeBase const base =
+        options.all ? knowledge_of_all(run, options.every, config, kind, provenance, observe, gammas, options.success)
+                    : knowledge_of_lineage(run, *individual, config, kind, provenance, observe, gammas);
+    write_knowledge_base(options.out, value.rule == ValueRule::mean ? base : valued(base, value));
     say(program, fmt::format("wrote {}: {} features from {} windows of {} individuals", options.out, base.size(),
                              base.provenance().windows, base.provenance().individuals));
 }
@@ -75,6 +110,17 @@ void add_build(CLI::App& app, Program& program) {
     command->add_option("--threshold", options->threshold, "distance below which a window matches; default: the run's")
         ->check(CLI::Range(1e-3, 1e3))
         ->check(a_number);
+    add_value(command, options->value, options->gamma, false);
+    command
+        ->add_option("--gammas", options->gammas,
+                     "discounts whose returns are gathered, so that revalue can choose among them")
+        ->expected(1, static_cast<int>(most_gammas))
+        ->capture_default_str();
+    command
+        ->add_option("--success", options->success,
+                     "of contrast: so many balls make a success; default: half of what the best delivered")
+        ->check(CLI::Range(1, 1000000000))
+        ->needs(all);
 }
 
 }   // namespace lore::kb

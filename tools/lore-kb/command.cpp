@@ -39,6 +39,28 @@ void add_individual(CLI::App* command, std::optional<std::string>& id) {
     command->add_option("--individual", id, "'best', or GENERATION.SLOT")->type_name("ID")->default_str("best");
 }
 
+void add_value(CLI::App* command, std::string& rule, std::optional<double>& gamma, bool required) {
+    CLI::Option* const option = command->add_option(
+        "--value", rule,
+        "rule that gives the values: mean (of the rewards of those who showed a feature), return (discounted, "
+        "delivered after it was shown), contrast (log-odds of success against contemporaries), credit (gain of "
+        "children in which it is new)");
+    if (required) option->required();
+    else option->capture_default_str();
+    command->add_option("--gamma", gamma, "of return: discount a step, between 0 and 1")
+        ->default_str(fmt::format("{}", ValueConfig{}.gamma));
+}
+
+ValueConfig value_config(std::string const& rule, std::optional<double> gamma) {
+    ValueConfig config;
+    config.rule = value_rule(rule);
+    if (gamma && config.rule != ValueRule::discounted_return)
+        throw UsageError(fmt::format("value rule {} has no gamma", rule), "only return discounts", "Leave it out.");
+    config.gamma = gamma.value_or(config.gamma);
+    check_gamma(config.gamma);
+    return config;
+}
+
 std::string made_by(Program const& program) {
     BuildInformation const build = build_information();
     return fmt::format("{} (Lore {}, commit {})", program.command_line, build.version, build.commit);

@@ -3,7 +3,7 @@
 #include "program.h"
 
 #include <lore/experiment/run_directory.h>
-#include <lore/knowledge/knowledge_base.h>
+#include <lore/knowledge/value.h>
 
 #include <functional>
 #include <memory>
@@ -37,6 +37,7 @@ void add_info(CLI::App&, Program&);
 void add_query(CLI::App&, Program&);
 void add_product(CLI::App&, Program&);
 void add_randomize(CLI::App&, Program&);
+void add_revalue(CLI::App&, Program&);
 void add_reduce(CLI::App&, Program&);
 void add_export(CLI::App&, Program&);
 void add_clone(CLI::App&, Program&);
@@ -48,6 +49,10 @@ void add_out(CLI::App*, std::string& path);
 void add_index(CLI::App*, std::string& name);
 /// Left empty where it is not given: then 'best' is meant.
 void add_individual(CLI::App*, std::optional<std::string>&);
+/// --value RULE and --gamma G.
+void add_value(CLI::App*, std::string& rule, std::optional<double>& gamma, bool required);
+/// Throws UsageError for an unknown rule, a gamma outside (0, 1), and one that the rule has no use for.
+ValueConfig value_config(std::string const& rule, std::optional<double> gamma);
 /// Refuses "nan", which CLI11 reads as a number within any range.
 extern CLI::Validator const a_number;
 

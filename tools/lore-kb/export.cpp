@@ -34,8 +34,9 @@ void add_export(CLI::App& app, Program& program) {
     CLI::App* const command =
         add_command(app, program, "export", "Write the features for other programs", options, export_base);
     add_base(command, options->base);
-    command->add_option("--npy", options->npy,
-                        "directory for features.npy, values.npy, reward_sums.npy, counts.npy, provenance.json");
+    command->add_option(
+        "--npy", options->npy,
+        "directory for features.npy, values.npy, reward_sums.npy, counts.npy, the evidence, provenance.json");
     command->add_option("--csv", options->csv, "file, a row a feature");
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lore::kb {
 
@@ -20,6 +21,32 @@ struct Options {
     bool json = false;
 };
 
+nlohmann::ordered_json evidence_json(Evidence const& evidence) {
+    auto json = nlohmann::ordered_json::object();
+    if (evidence.has_returns())
+        json["returns"] = {
+            {"gammas", evidence.gammas},
+            {"showings", std::accumulate(evidence.showings.begin(), evidence.showings.end(), std::uint64_t{0})}};
+    if (evidence.has_credit)
+        json["credit"] = {{"news", std::accumulate(evidence.news.begin(), evidence.news.end(), std::uint64_t{0})}};
+    if (evidence.has_contrast())
+        json["contrast"] = {{"success_balls", evidence.success_balls},
+                            {"successes", evidence.successes},
+                            {"failures", evidence.failures}};
+    return json;
+}
+
+/// One line a part.
+void print_evidence(Evidence const& evidence) {
+    if (evidence.has_returns()) fmt::print("evidence     returns for gamma {}\n", fmt::join(evidence.gammas, ", "));
+    if (evidence.has_credit)
+        fmt::print("evidence     credit: {} times a feature was new to a child\n",
+                   std::accumulate(evidence.news.begin(), evidence.news.end(), std::uint64_t{0}));
+    if (evidence.has_contrast())
+        fmt::print("evidence     contrast: {} individuals with at least {} balls, {} contemporaries with fewer\n",
+                   evidence.successes, evidence.success_balls, evidence.failures);
+}
+
 void print_json(KnowledgeBase const& base, ValueSummary const& summary) {
     nlohmann::ordered_json json{{"features", base.size()},
                                 {"threshold", base.config().match_threshold},
@@ -29,6 +56,7 @@ void print_json(KnowledgeBase const& base, ValueSummary const& summary) {
         json["values"] = {{"min", summary.lowest}, {"max", summary.highest}, {"mean", summary.mean}};
         json["histogram"] = {{"edges", summary.edges}, {"counts", summary.counts}};
     }
+    json["evidence"] = evidence_json(base.evidence());
     json["provenance"] = nlohmann::ordered_json::parse(provenance_json(base.provenance()));
     fmt::print("{}\n", json.dump(2));
 }
@@ -55,6 +83,8 @@ void print_text(KnowledgeBase const& base, ValueSummary const& summary) {
                "{}\nsources      {}\n",
                origin.kind, origin.index, origin.task, origin.individuals, origin.windows, origin.best_balls,
                fmt::join(origin.sources, ", "));
+    fmt::print("value rule   {}\n", origin.value.empty() ? text(ValueConfig{}) : origin.value);
+    print_evidence(base.evidence());
     for (std::string const& step : origin.derivation) fmt::print("then         {}\n", step);
     fmt::print("made by      {}\n", origin.made_by);
 }

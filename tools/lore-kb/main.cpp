@@ -25,6 +25,7 @@ constexpr char const* examples =
     "  lore-kb query kb1.lorekb --run runs/t1 --csv found.csv        what the best of another run shows of it\n"
     "  lore-kb product kb1.lorekb kb2.lorekb --run runs/s1 --csv product.csv\n"
     "  lore-kb randomize kb1.lorekb --seed 1 --out kb1random.lorekb\n"
+    "  lore-kb revalue kb1.lorekb --value return --gamma 0.995 --out kb1return.lorekb\n"
     "  lore-kb reduce kb1.lorekb --top 1000 --out top.lorekb\n"
     "  lore-kb export kb1.lorekb --npy kb1\n"
     "  lore-kb clone kb1.lorekb --out founders.lore                  for lore-evolve --founders founders.lore\n"
@@ -44,7 +45,7 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.add_flag("-q,--quiet", program.quiet, "say nothing but errors");
     for (auto const add : {kb::add_build, kb::add_info, kb::add_query, kb::add_product, kb::add_randomize,
-                           kb::add_reduce, kb::add_export, kb::add_clone, kb::add_verify})
+                           kb::add_revalue, kb::add_reduce, kb::add_export, kb::add_clone, kb::add_verify})
         add(app, program);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;

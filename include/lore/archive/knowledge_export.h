@@ -9,10 +9,11 @@ namespace lore {
 /// Knowledge bases and windows for the long term and for other programs (docs/manual/formats.md has columns and
 /// shapes).
 
-/// A row a feature: feature, value, reward_sum, count, then each channel of each step (range_right_0 .. collect_19).
+/// A row a feature: feature, value, reward_sum, count, then each channel of each step (range_right_0 .. collect_19),
+/// then the evidence that there is.
 std::string knowledge_csv(KnowledgeBase const&);
-/// features.npy (n, T, channel_count), values.npy, reward_sums.npy, counts.npy and provenance.json into a directory,
-/// which is made if need be. Throws Error.
+/// features.npy (n, T, channel_count), values.npy, reward_sums.npy, counts.npy, the evidence and provenance.json into a
+/// directory, which is made if need be. Throws Error.
 void export_knowledge(std::string const& directory, KnowledgeBase const&);
 /// What a knowledge base knows of its origin, as its file holds it.
 std::string provenance_json(Provenance const&);

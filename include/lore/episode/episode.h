@@ -26,7 +26,8 @@ struct Trace {
     std::vector<std::uint16_t> bits;
     /// [step][continuous_count], continuous_channels order.
     std::vector<float> values;
-    std::vector<Pose> poses;   ///< before the move of that step
+    std::vector<Pose> poses;       ///< before the move of that step
+    std::vector<int> deliveries;   ///< steps whose action delivered a ball, increasing
     WorldState final_world;
 
     int steps() const { return static_cast<int>(bits.size()); }

@@ -18,13 +18,19 @@ using BuildingObserver = std::function<void(std::int64_t individuals, std::int64
 ///
 /// Of `provenance` the caller sets made_by; kind, index, sources, task and the counts are filled in here.
 
-/// Algorithm 1 over the lineage of `individual`, itself first.
+/// Discounts whose returns a build gathers if nothing else is said: half of a reward is left after 69, 138 and 346
+/// steps.
+std::vector<double> default_gammas();
+
+/// Algorithm 1 over the lineage of `individual`, itself first. Gathers evidence of credit and of returns for `gammas`.
 KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexKind,
-                                   Provenance, BuildingObserver const&);
+                                   Provenance, BuildingObserver const&, std::vector<double> gammas = default_gammas());
 /// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
-/// after it, if that is not 1. Throws Error if the run did not keep them.
+/// after it, if that is not 1. Throws Error if the run did not keep them. Gathers evidence of contrast and of returns.
+/// `success_balls`: so many make a success; 0: half of what the best-of-run delivered, rounded up, at least 1.
 KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexKind, Provenance,
-                               BuildingObserver const&);
+                               BuildingObserver const&, std::vector<double> gammas = default_gammas(),
+                               int success_balls = 0);
 
 /// How many individuals the run archived (--archive all).
 std::uint64_t archived_individuals(RunDirectory const&);

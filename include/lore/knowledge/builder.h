@@ -8,16 +8,22 @@ namespace lore {
 struct Exhibit {
     std::vector<Window> windows;
     double balls = 0;
+    std::span<int const> deliveries = {};   ///< as Trace::deliveries; of discounted returns
+    std::uint32_t generation = 0;           ///< of its birth; of contrast
 };
+
+class EvidenceGatherer;
 
 /// Algorithm 1, one individual at a time. The caller brings the individuals in order: the best-of-run first, then its
 /// parent, and so on to the founder; or all ever evaluated in order of birth ("KB all").
 class KnowledgeBuilder {
 public:
     /// `index` is empty and was made for the same configuration.
-    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index);
+    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index, EvidenceConfig = {});
+    ~KnowledgeBuilder();
+    KnowledgeBuilder(KnowledgeBuilder&&) noexcept;
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
-    void add_individual(std::span<Window const>, double balls);
+    void add_individual(Exhibit const&);
     /// As add_individual for each in order, with the search shared among threads. Precondition: the index is an exact
     /// one.
     void add_individuals(std::span<Exhibit const>, int threads);
@@ -25,12 +31,13 @@ public:
     std::uint64_t individuals() const { return individuals_; }
     std::uint64_t windows() const { return windows_; }
     std::uint64_t matched() const { return matched_; }   ///< windows that were in the base already
-    /// Provenance::individuals and ::windows are filled in here.
+    /// Values by rule mean. Provenance::individuals, ::windows and ::value are filled in here.
     KnowledgeBase finish(Provenance) &&;
 
 private:
     int add_feature();
-    void reward(int feature, double balls);
+    void begin_individual(Exhibit const&);
+    void show(int feature, std::size_t window, double balls);
     std::vector<Match> match_all(std::span<Window const* const>, int threads);
 
     KnowledgeConfig config_;
@@ -38,7 +45,8 @@ private:
     std::vector<std::unique_ptr<FeatureSearch>> searches_;   ///< one a thread
     std::vector<double> sums_;
     std::vector<std::uint32_t> counts_;
-    std::vector<std::uint64_t> last_exhibitor_;   ///< per feature, so that an individual counts once
+    std::unique_ptr<EvidenceGatherer> evidence_;   ///< null if none is wanted
+    std::vector<std::uint64_t> last_exhibitor_;    ///< per feature, so that an individual counts once
     std::uint64_t individuals_ = 0, windows_ = 0, matched_ = 0;
 };
 

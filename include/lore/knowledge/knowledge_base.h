@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/knowledge/evidence.h>
 #include <lore/knowledge/window.h>
 
 #include <cstdint>
@@ -18,6 +19,7 @@ struct Provenance {
     std::vector<std::string> sources;      ///< runs or knowledge bases it was made from
     std::vector<std::string> derivation;   ///< what was done to it since it was built, in order
     std::string task;                      ///< the arena's and task's name
+    std::string value;                     ///< the rule that gave the values (knowledge/value.h); empty: mean
     std::uint64_t individuals = 0;         ///< whose windows were read
     std::uint64_t windows = 0;
     int best_balls = 0;   ///< of the best-of-run whose lineage it is
@@ -31,13 +33,16 @@ struct KnowledgeArrays {
     std::vector<double> values;          ///< [feature]
     std::vector<double> reward_sums;     ///< [feature]
     std::vector<std::uint32_t> counts;   ///< [feature]
+    EvidenceArrays evidence = {};
 };
 
 /// Behavioral features and what those who showed them earned (paper, "Knowledge building process").
 ///
-/// Feature i has the window (bits, values)[i], the rewards' sum and the number of individuals that exhibited it; its
-/// value is sum / count, or what randomize gave it. Features are numbered in the order in which they were first met.
-/// Flat arrays that may live in a mapped file shared by the ranks of one node; immutable, cheap to copy.
+/// Feature i has the window (bits, values)[i] and evidence: the rewards' sum and the number of individuals that
+/// exhibited it, and what else the build gathered. Its value is derived from the evidence by a rule, sum / count unless
+/// another was chosen (knowledge/value.h), or it is what randomize gave it; any finite number, negative ones too.
+/// Features are numbered in the order in which they were first met. Flat arrays that may live in a mapped file shared
+/// by the ranks of one node; immutable, cheap to copy.
 class KnowledgeBase {
 public:
     KnowledgeConfig const& config() const { return parts_.config; }
@@ -51,6 +56,7 @@ public:
         return parts_.counts[static_cast<std::size_t>(feature)];
     }   ///< individuals that exhibited it
     std::span<double const> values() const { return parts_.values; }
+    Evidence const& evidence() const { return parts_.evidence; }
 
     /// The parts of a knowledge base; `keep_alive` owns the memory behind the spans (vectors, or a mapped file).
     struct Parts {
@@ -62,11 +68,14 @@ public:
         std::span<double const> reward_sums;     ///< [feature]
         std::span<std::uint32_t const> counts;   ///< [feature]
         std::shared_ptr<void const> keep_alive;
+        Evidence evidence = {};
     };
     explicit KnowledgeBase(Parts);
     /// One that owns its arrays.
     KnowledgeBase(KnowledgeConfig, Provenance, KnowledgeArrays);
     Parts const& parts() const { return parts_; }
+    /// The same features with other values; shares all other memory. Precondition: one value a feature.
+    KnowledgeBase with_values(std::vector<double> values, Provenance) const;
 
 private:
     Parts parts_;

@@ -35,6 +35,24 @@ TEST(KnowledgeCsv, has_a_row_a_feature_with_the_channels_in_their_order) {
     EXPECT_THAT(csv, HasSubstr("\n1,1,1,1,0.25,0,0,1,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.125\n"));
 }
 
+TEST(KnowledgeCsv, ends_with_the_evidence_that_there_is) {
+    KnowledgeArrays arrays{{0}, std::vector<float>(6), {2}, {4}, {2}};
+    arrays.evidence.gammas = {0.5, 0.995};
+    arrays.evidence.showings = {3};
+    arrays.evidence.return_sums = {1.5, 2.25};
+    arrays.evidence.has_credit = true;
+    arrays.evidence.news = {1};
+    arrays.evidence.gain_sums = {-2};
+    KnowledgeBase const base{{1, 1.83f}, {}, std::move(arrays)};
+    EXPECT_THAT(knowledge_csv(base), HasSubstr(",collect_0,showings,return_sum_0.5,return_sum_0.995,news,gain_sum\n"));
+    EXPECT_THAT(knowledge_csv(base), HasSubstr(",0,3,1.5,2.25,1,-2\n"));
+    Scratch const scratch;
+    export_knowledge(scratch.file("kb"), base);
+    EXPECT_THAT(read_npy(scratch.file("kb/return_sums.npy")).shape, ElementsAre(2, 1));
+    EXPECT_THAT(read_npy(scratch.file("kb/showings.npy")).values, ElementsAre(3.0f));
+    EXPECT_THAT(read_npy(scratch.file("kb/gain_sums.npy")).values, ElementsAre(-2.0f));
+}
+
 TEST(ExportKnowledge, writes_arrays_that_read_back_as_the_windows) {
     Scratch const scratch;
     export_knowledge(scratch.file("kb"), two);

@@ -19,7 +19,33 @@ using ::testing::HasSubstr;
 
 namespace {
 
-KnowledgeBase some_base(int features, int window_length) {
+/// Which parts of the evidence a base has.
+struct Parts {
+    int gammas = 0;
+    bool credit = false, contrast = false;
+};
+
+EvidenceArrays some_evidence(Stream& rng, int features, Parts const& parts) {
+    EvidenceArrays evidence;
+    for (int i = 0; i < parts.gammas; ++i) evidence.gammas.push_back(0.5 + 0.1 * i);
+    evidence.has_credit = parts.credit;
+    if (parts.contrast) evidence.success_balls = 2, evidence.successes = 20, evidence.failures = 30;
+    for (int i = 0; i < features; ++i) {
+        if (parts.gammas > 0) evidence.showings.push_back(1 + rng.below(9));
+        for (int gamma = 0; gamma < parts.gammas; ++gamma) evidence.return_sums.push_back(rng.uniform());
+        if (parts.credit) {
+            evidence.news.push_back(rng.below(9));
+            evidence.gain_sums.push_back(rng.uniform(-3, 3));
+        }
+        if (parts.contrast) {
+            evidence.successes_that_showed.push_back(rng.below(21));
+            evidence.failures_that_showed.push_back(rng.below(31));
+        }
+    }
+    return evidence;
+}
+
+KnowledgeBase some_base(int features, int window_length, Parts const& parts = {}) {
     Stream rng{1, Purpose::test, 0, static_cast<std::uint32_t>(features)};
     KnowledgeArrays arrays;
     for (int i = 0; i < features; ++i) {
@@ -32,7 +58,9 @@ KnowledgeBase some_base(int features, int window_length) {
         arrays.reward_sums.push_back(rng.below(30));
         arrays.values.push_back(arrays.reward_sums.back() / arrays.counts.back());
     }
+    arrays.evidence = some_evidence(rng, features, parts);
     Provenance provenance;
+    if (parts.gammas > 0) provenance.value = "return 0.5";
     provenance.made_by = "lore-kb build runs/s1 \"quoted\" \xC3\xA9";
     provenance.kind = "lineage";
     provenance.index = "exact";
@@ -58,6 +86,18 @@ void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
     EXPECT_EQ(copy_of(a.values()), copy_of(b.values()));
     EXPECT_EQ(copy_of(a.parts().reward_sums), copy_of(b.parts().reward_sums));
     EXPECT_EQ(copy_of(a.parts().counts), copy_of(b.parts().counts));
+    Evidence const &left = a.evidence(), &right = b.evidence();
+    EXPECT_EQ(left.gammas, right.gammas);
+    EXPECT_EQ(copy_of(left.showings), copy_of(right.showings));
+    EXPECT_EQ(copy_of(left.return_sums), copy_of(right.return_sums));
+    EXPECT_EQ(left.has_credit, right.has_credit);
+    EXPECT_EQ(copy_of(left.news), copy_of(right.news));
+    EXPECT_EQ(copy_of(left.gain_sums), copy_of(right.gain_sums));
+    EXPECT_EQ(left.success_balls, right.success_balls);
+    EXPECT_EQ(left.successes, right.successes);
+    EXPECT_EQ(left.failures, right.failures);
+    EXPECT_EQ(copy_of(left.successes_that_showed), copy_of(right.successes_that_showed));
+    EXPECT_EQ(copy_of(left.failures_that_showed), copy_of(right.failures_that_showed));
 }
 
 /// The error of reading a file with this content, or "" if it is read.
@@ -93,6 +133,49 @@ TEST(KnowledgeFile, gives_back_what_was_written) {
             write_knowledge_base(path, base);
             expect_equal(read_knowledge_base(path), base);
         }
+}
+
+TEST(KnowledgeFile, gives_back_every_part_of_the_evidence_and_keeps_layout_1_where_there_is_none) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    for (Parts const parts :
+         {Parts{}, {3, false, false}, {0, true, false}, {0, false, true}, {1, true, false}, {16, true, true}})
+        for (int features : {0, 1, 5}) {
+            KnowledgeBase const base = some_base(features, 3, parts);
+            write_knowledge_base(path, base);
+            expect_equal(read_knowledge_base(path), base);
+            std::uint32_t layout = 0;
+            Bytes const payload = read_container(path, FileKind::knowledge_base);
+            std::memcpy(&layout, payload.data(), sizeof layout);
+            EXPECT_EQ(layout, base.evidence().none() ? 1u : 2u);
+        }
+}
+
+TEST(KnowledgeFile, refuses_evidence_outside_its_range) {
+    Scratch const scratch;
+    Bytes const good = payload_of(scratch, some_base(3, 2, {2, true, true}));
+    auto const with = [&](std::size_t at, auto number) {
+        Bytes payload = good;
+        std::memcpy(payload.data() + at, &number, sizeof number);
+        return refusal_of_payload(scratch, payload);
+    };
+    // Three features of two steps: bits at 448, gammas at 512, showings at 576, returns at 640, news at 704, gains at
+    // 768, what contrast compares at 832, successes at 896, failures at 960.
+    double const not_a_number = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THAT(with(512, 1.0), HasSubstr("gammas"));
+    EXPECT_THAT(with(512, 0.9), HasSubstr("gammas"));
+    EXPECT_THAT(with(512, not_a_number), HasSubstr("gammas"));
+    EXPECT_THAT(with(576, std::uint64_t{0}), HasSubstr("nobody showed"));
+    EXPECT_THAT(with(640, not_a_number), HasSubstr("evidence is not finite"));
+    EXPECT_THAT(with(768, not_a_number), HasSubstr("evidence is not finite"));
+    EXPECT_THAT(with(832 + 16, std::uint32_t{0}), HasSubstr("need no balls"));
+    EXPECT_THAT(with(896, std::uint32_t{21}), HasSubstr("more have shown"));
+    EXPECT_THAT(with(960, std::uint32_t{31}), HasSubstr("more have shown"));
+    EXPECT_THAT(with(20, std::uint32_t{0}), HasSubstr("no known kind"));
+    EXPECT_THAT(with(20, std::uint32_t{17}), HasSubstr("no known kind"));
+    EXPECT_THAT(with(20, std::uint32_t{16}), HasSubstr("do not fit"));
+    EXPECT_THAT(with(40, std::uint64_t{8 + 7}), HasSubstr("no known kind"));
+    EXPECT_EQ(with(768, -2.5), "");
 }
 
 TEST(KnowledgeFile, aligns_its_arrays_to_cache_lines) {
@@ -152,7 +235,7 @@ TEST(KnowledgeFile, refuses_numbers_outside_their_range_in_a_file_that_is_whole)
     EXPECT_THAT(with(256, std::numeric_limits<float>::quiet_NaN()), HasSubstr("0 .. 1"));
     EXPECT_THAT(with(256 + 140, 1.5f), HasSubstr("0 .. 1"));
     EXPECT_THAT(with(448, std::uint16_t{0x200}), HasSubstr("unknown channels"));
-    EXPECT_THAT(with(0, std::uint32_t{2}), HasSubstr("newer Lore"));
+    EXPECT_THAT(with(0, std::uint32_t{3}), HasSubstr("newer Lore"));
     EXPECT_THAT(with(4, std::uint32_t{0}), HasSubstr("window length"));
     EXPECT_THAT(with(4, std::uint32_t{3}), HasSubstr("do not fit"));
     EXPECT_THAT(with(8, std::numeric_limits<float>::quiet_NaN()), HasSubstr("threshold"));

@@ -151,7 +151,7 @@ Shaper shaper_from(std::string const& task, KnowledgeConfig const& config, int i
     auto const teachers = population(individuals, 99);
     for (std::size_t i = 0; i < teachers.size(); ++i) {
         Trace const trace = record_episode(arena(task), compile(teachers[i]), {1000, 0});
-        builder.add_individual(windows_of(trace, config.window_length), static_cast<double>(i % 7));
+        builder.add_individual({windows_of(trace, config.window_length), static_cast<double>(i % 7)});
     }
     return Shaper{std::move(builder).finish({}), rule};
 }

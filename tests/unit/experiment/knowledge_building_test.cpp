@@ -6,6 +6,7 @@
 #include <lore/core/error.h>
 #include <lore/evolution/lineage.h>
 #include <lore/knowledge/builder.h>
+#include <lore/knowledge/value.h>
 
 #include <gmock/gmock.h>
 
@@ -35,7 +36,7 @@ TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_
     KnowledgeBuilder plain{config, make_scan_index(config)};
     for (Birth const* ancestor : lineage_of(*best)) {
         Trace const trace = record_episode(run.arena, compile(ancestor->genome), run.config.episode);
-        plain.add_individual(windows_of(trace, config.window_length), ancestor->balls);
+        plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(ancestor->balls)});
     }
     std::int64_t last = 0;
     Provenance provenance;
@@ -52,6 +53,50 @@ TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_
     EXPECT_EQ(base.provenance().individuals, lineage_of(*best).size());
 }
 
+TEST(KnowledgeOfLineage, finds_the_deliveries_that_the_plain_evaluation_makes) {
+    // A ball is within reach of the start, and the basket is everywhere: a robot that lets go delivers.
+    Scratch const scratch;
+    test::write_small_run(scratch.path());
+    RunDirectory run = open_run(scratch.path());
+    std::string text{arena_text(run.config.arena)};
+    auto const replace = [&](std::string const& from, std::string const& to) {
+        ASSERT_NE(text.find(from), std::string::npos) << from;
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace("reach = 20 ", "reach = 900 ");
+    replace("radius = 33.75", "radius = 900");
+    write_file_atomically(scratch.file("arena.toml"), std::string_view{text});
+    run.arena = load_arena(scratch.file("arena.toml"), "source");
+
+    KnowledgeConfig const config = run.config.knowledge;
+    KnowledgeBuilder plain{config, make_scan_index(config), {default_gammas(), true, 0}};
+    std::shared_ptr<Birth> youngest;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        auto birth = std::make_shared<Birth>();
+        birth->id = {i, 0};
+        birth->parent = youngest;
+        birth->genome = founder(Stream{4, Purpose::founder, 0, i});
+        birth->balls = record_episode(run.arena, compile(birth->genome), run.config.episode).final_world.collected;
+        youngest = birth;
+    }
+    std::size_t delivered = 0;
+    for (Birth const* ancestor : lineage_of(*youngest)) {
+        Trace const trace = record_episode(run.arena, compile(ancestor->genome), run.config.episode);
+        EXPECT_EQ(trace.deliveries.size(), static_cast<std::size_t>(ancestor->balls));
+        delivered += trace.deliveries.size();
+        plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(ancestor->balls),
+                              trace.deliveries, ancestor->id.generation});
+    }
+    EXPECT_GT(delivered, 20u);
+    KnowledgeBase const base = knowledge_of_lineage(run, *youngest, config, IndexKind::exact, {}, nobody);
+    KnowledgeBase const expected = std::move(plain).finish({});
+    expect_equal(base, expected);
+    for (ValueConfig const rule : {ValueConfig{ValueRule::discounted_return, 0.99},
+                                   {ValueRule::discounted_return, 0.995},
+                                   {ValueRule::credit, 0}})
+        EXPECT_EQ(values_by(base, rule), values_by(expected, rule));
+}
+
 TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_of_birth) {
     Scratch const scratch;
     test::write_small_run(scratch.path());
@@ -65,7 +110,7 @@ TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_o
             run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
                 if (number++ % every != 0) return;
                 Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
-                plain.add_individual(windows_of(trace, config.window_length), individual.balls);
+                plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(individual.balls)});
             });
         EXPECT_EQ(plain.individuals(), every == 1 ? 64u : 13u);
         expect_equal(knowledge_of_all(run, every, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));

@@ -25,10 +25,10 @@ TEST(KnowledgeBuilder, follows_algorithm_1_on_a_lineage_of_three) {
     Trace const best = trace_of({A0, A1, B0, A1, A0, A1});
     Trace const parent = trace_of({a0, A1, C0, A1});
     Trace const founder = trace_of({D0, A1, B0, A1});
-    builder.add_individual(windows_of(best, 2), 7);
+    builder.add_individual({windows_of(best, 2), 7});
     EXPECT_EQ(builder.features(), 2);
-    builder.add_individual(windows_of(parent, 2), 4);
-    builder.add_individual(windows_of(founder, 2), 0);
+    builder.add_individual({windows_of(parent, 2), 4});
+    builder.add_individual({windows_of(founder, 2), 0});
     EXPECT_EQ(builder.features(), 4);
     EXPECT_EQ(builder.individuals(), 3u);
     EXPECT_EQ(builder.windows(), 7u);
@@ -63,8 +63,8 @@ TEST(KnowledgeBuilder, depends_on_the_order_of_individuals) {
                 c = trace_of({{0x00F, 0.5f}, {0, 0.5f}});
     KnowledgeBuilder forward{two_steps, make_scan_index(two_steps)},
         middle_first{two_steps, make_scan_index(two_steps)};
-    for (Trace const* trace : {&A, &b, &c}) forward.add_individual(windows_of(*trace, 2), 1);
-    for (Trace const* trace : {&b, &A, &c}) middle_first.add_individual(windows_of(*trace, 2), 1);
+    for (Trace const* trace : {&A, &b, &c}) forward.add_individual({windows_of(*trace, 2), 1});
+    for (Trace const* trace : {&b, &A, &c}) middle_first.add_individual({windows_of(*trace, 2), 1});
     EXPECT_EQ(forward.features(), 2);
     EXPECT_EQ(middle_first.features(), 1);
 }
@@ -78,7 +78,7 @@ TEST(KnowledgeBuilder, makes_an_empty_base_of_nothing) {
 TEST(KnowledgeBuilder, keeps_only_channels_of_the_words) {
     KnowledgeBuilder builder{two_steps, make_scan_index(two_steps)};
     Trace const trace = trace_of({{0x7E01, 0.5f}, {0x0200, 0.5f}});
-    builder.add_individual(windows_of(trace, 2), 1);
+    builder.add_individual({windows_of(trace, 2), 1});
     KnowledgeBase const base = std::move(builder).finish({});
     EXPECT_EQ(base.window(0).bits[0], 1);
     EXPECT_EQ(base.window(0).bits[1], 0);
@@ -95,7 +95,7 @@ TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_numb
         exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(i % 5)});
 
     KnowledgeBuilder plain{config, make_scan_index(config)};
-    for (Exhibit const& exhibit : exhibits) plain.add_individual(exhibit.windows, exhibit.balls);
+    for (Exhibit const& exhibit : exhibits) plain.add_individual(exhibit);
     std::uint64_t const matched = plain.matched();
     KnowledgeBase const expected = std::move(plain).finish({});
     EXPECT_GT(matched, 0u);

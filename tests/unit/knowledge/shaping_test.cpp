@@ -100,7 +100,7 @@ TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) 
     Stream rng{3, Purpose::test};
     for (int i = 0; i < 12; ++i) {
         Trace const trace = test::lifelike_trace(rng, 2000);
-        builder.add_individual(windows_of(trace, config.window_length), rng.below(8));
+        builder.add_individual({windows_of(trace, config.window_length), static_cast<double>(rng.below(8))});
     }
     KnowledgeBase const base = randomize(std::move(builder).finish({}), 5);
     Shaper const shaper{base};
@@ -126,7 +126,7 @@ TEST(Shaper, answers_several_threads_alike) {
     Stream rng{4, Purpose::test};
     for (int i = 0; i < 6; ++i) {
         Trace const trace = test::lifelike_trace(rng, 2000);
-        builder.add_individual(windows_of(trace, config.window_length), i);
+        builder.add_individual({windows_of(trace, config.window_length), static_cast<double>(i)});
     }
     Shaper const shaper{std::move(builder).finish({})};
     Trace const query = test::lifelike_trace(rng, 2000);

@@ -1,0 +1,33 @@
+#include "command.h"
+
+#include <lore/archive/knowledge_file.h>
+#include <lore/knowledge/derive.h>
+
+namespace lore::kb {
+
+namespace {
+
+struct Options {
+    std::string base, out, value;
+    std::optional<double> gamma;
+};
+
+void revalue(Program const& program, Options const& options) {
+    ValueConfig const value = value_config(options.value, options.gamma);
+    check_writable(options.out);
+    write_derived(program, options.out, lore::revalue(read_knowledge_base(options.base), value), {options.base});
+}
+
+}   // namespace
+
+void add_revalue(CLI::App& app, Program& program) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        add_command(app, program, "revalue", "Value the features by another rule, from the evidence of the build",
+                    options, revalue);
+    add_base(command, options->base);
+    add_value(command, options->value, options->gamma, true);
+    add_out(command, options->out);
+}
+
+}   // namespace lore::kb
