@@ -71,7 +71,7 @@ constexpr float whole_turn = 6.2831855f;
 constexpr float largest_sensor = 1e6f;   // other simulators' range sensors leave [0, 1] by a little
 constexpr int largest_count = 1 << 30;
 
-std::array<std::size_t, effector_count> effector_columns(CsvReader const& csv) {
+std::array<std::size_t, effector_count> effector_columns(CsvTable const& csv) {
     std::array<std::size_t, effector_count> columns;
     for (int i = 0; i < effector_count; ++i) columns[static_cast<std::size_t>(i)] = csv.column(fmt::format("a{}", i));
     return columns;

@@ -3,10 +3,10 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -150,8 +150,7 @@ Replays read_scenes(CampaignDirectory const& directory) {
     Replays all;
     if (!std::filesystem::exists(path)) return all;
     try {
-        std::ifstream file{path};
-        Json const document = Json::parse(file);
+        Json const document = Json::parse(read_text(path));
         for (Json const& entry : document.at("replays"))
             all.replays.push_back({entry.at("run"), entry.at("signature"), read_scene(entry.at("scene")), {}});
         for (Json const& entry : document.at("panels"))

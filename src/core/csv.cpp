@@ -1,11 +1,9 @@
 #include <lore/core/csv.h>
 
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 

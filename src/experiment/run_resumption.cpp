@@ -125,8 +125,8 @@ void resume(RunSetup& setup, RunOptions const& options) {
     if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
     find_knowledge(setup, options);
     find_checkpoint(setup);
-    find_founders(setup);
     take_seed(setup, options);
+    find_founders(setup);   // clones of a knowledge base are drawn by the seed
     choose_archive(setup, options);
 }
 

@@ -13,18 +13,18 @@ namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> rule_names{"max", "distinct", "sum", "share"};
+constexpr std::array<std::string_view, 4> shaping_rule_names{"max", "distinct", "sum", "share"};
 
 }   // namespace
 
-std::string_view name(ShapingRule rule) { return rule_names[static_cast<std::size_t>(rule)]; }
+std::string_view name(ShapingRule rule) { return shaping_rule_names[static_cast<std::size_t>(rule)]; }
 
 ShapingRule shaping_rule(std::string_view wanted) {
-    auto const found = std::find(rule_names.begin(), rule_names.end(), wanted);
-    if (found == rule_names.end())
+    auto const found = std::find(shaping_rule_names.begin(), shaping_rule_names.end(), wanted);
+    if (found == shaping_rule_names.end())
         throw UsageError(fmt::format("'{}' is not a shaping rule", wanted), "known are max, distinct, sum, share",
                          "Correct the name.");
-    return static_cast<ShapingRule>(found - rule_names.begin());
+    return static_cast<ShapingRule>(found - shaping_rule_names.begin());
 }
 
 struct Shaper::State {

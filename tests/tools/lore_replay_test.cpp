@@ -85,7 +85,7 @@ TEST_F(LoreReplay, refuses_wrong_files) {
     write("few.csv", "a0,a1,a2\n1,1\n");
     expect_refusal("--actions short.csv --task source --out never", 1, "no column 'a2'");
     expect_refusal("--actions nan.csv --task source --out never", 1, "line 2, column a1");
-    expect_refusal("--actions few.csv --task source --out never", 1, "2 fields where the header has 3");
+    expect_refusal("--actions few.csv --task source --out never", 1, "line 2 has 2 fields, the header 3");
     expect_refusal("--actions none.csv --task source --out never", 2, "No such file");
     expect_refusal("--follow nan.csv --task source --out never", 1, "no column 'step'");
 }

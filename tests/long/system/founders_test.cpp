@@ -73,6 +73,16 @@ TEST_F(Founders, of_a_knowledge_base_are_cloned_by_the_seed_of_the_run) {
               signature_of("b2", {"--founders", by_hand, "--seed", "3", "--set", set}));
 }
 
+TEST_F(Founders, of_a_knowledge_base_are_cloned_again_where_a_run_is_killed_before_its_first_checkpoint) {
+    std::vector<std::string> const as{"--founders", base, "--seed", "3"};
+    std::string const expected = signature_of("whole", as), run = scratch.file("run");
+    Command start{scratch, evolve(config, run, {"--founders", base, "--seed", "3", "--max-time", "0"})};
+    EXPECT_EQ(start.wait(), 75) << start.err();
+    for (char const* const late : {"run/checkpoint.lore", "run/checkpoint-older.lore"})
+        std::filesystem::remove(scratch.file(late));
+    EXPECT_EQ(signature_of("run", {"--founders", base, "--seed", "3", "--resume"}), expected);
+}
+
 TEST_F(Founders, are_needed_no_more_once_generation_0_is_past) {
     std::string const whole = scratch.file("whole"), stopped = scratch.file("stopped");
     std::string const expected = signature_of("whole", {"--founders", clones});

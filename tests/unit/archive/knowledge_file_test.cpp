@@ -27,7 +27,7 @@ struct Parts {
 
 EvidenceArrays some_evidence(Stream& rng, int features, Parts const& parts) {
     EvidenceArrays evidence;
-    for (int i = 0; i < parts.gammas; ++i) evidence.gammas.push_back(0.5 + 0.1 * i);
+    for (int i = 0; i < parts.gammas; ++i) evidence.gammas.push_back(0.5 + 0.01 * i);
     evidence.has_credit = parts.credit;
     if (parts.contrast) evidence.success_balls = 2, evidence.successes = 20, evidence.failures = 30;
     for (int i = 0; i < features; ++i) {

@@ -92,7 +92,7 @@ TEST(OneMoreSensor, reads_the_same_in_lanes_and_plainly_to_the_bit) {
     KnowledgeBuilder builder{{}, make_exact_index({})};
     auto const traces = traces_of(genomes, 600);
     for (std::size_t i = 0; i < traces.size(); ++i)
-        builder.add_individual(windows_of(traces[i], KnowledgeConfig{}.window_length), static_cast<double>(i % 7));
+        builder.add_individual({windows_of(traces[i], KnowledgeConfig{}.window_length), static_cast<double>(i % 7)});
     EvaluationContext const context{arena(), {1000, 0}, Shaper{std::move(builder).finish({})}};
     auto const fast = evaluations_of(context, genomes);
     int shaped = 0;
