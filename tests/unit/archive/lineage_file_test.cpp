@@ -46,7 +46,7 @@ TEST(LineageFile, gives_back_every_ancestor_of_the_last_population_linked_and_in
 TEST(LineageFile, says_where_founders_came_from_and_without_that_has_the_bytes_it_always_had) {
     Scratch const scratch;
     Population const population = evolved(3).population;
-    FoundersOrigin const origin{"clones of a knowledge base", "/work/founders.lore", "0123456789abcdef"};
+    FoundersOrigin const origin{"clones of a knowledge base", "elsewhere/founders.lore", "0123456789abcdef"};
     write_lineage(scratch.file("random"), population);
     write_lineage(scratch.file("cloned"), population, origin);
     EXPECT_EQ(read_lineage(scratch.file("random")).founders, std::nullopt);
