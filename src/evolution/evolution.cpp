@@ -73,8 +73,7 @@ Population join(Population parents, std::vector<Individual> children) {
     return parents;
 }
 
-/// Sets the diversity of every member within the pool. Any other objective that compares members is set likewise,
-/// between this and the ranking.
+/// Sets the diversity of every member within the pool.
 void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances) {
     pool.distances = std::move(distances);
     pool.distance_kind = kind;

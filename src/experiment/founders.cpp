@@ -51,7 +51,7 @@ FileRecord founders_record(std::string const& from) {
             fmt::format("no founders in {}", from),
             is_run ? fmt::format("there is no {}, which is written when a run stops or ends", run_file::lineage)
                    : std::string{"no such file"},
-            "Give the directory of a finished run, or a file that 'lore-kb clone' wrote.");
+            "Give the directory of a finished run, a knowledge base, or a file that 'lore-kb clone' wrote.");
     FileRecord record = record_of(file_role::founders, path, path);
     record.kind = is_run ? "last population of a run" : is_knowledge_base(path) ? clones : read_founders(path).kind;
     return record;
