@@ -25,6 +25,10 @@ std::vector<Isa> usable_isas() {
     return isas;
 }
 
+// A channel's number is that of its neuron.
+constexpr int left_wheel = static_cast<int>(Channel::left_wheel), right_wheel = static_cast<int>(Channel::right_wheel),
+              collect = static_cast<int>(Channel::collect);
+
 /// Sets the gene of an edge so that it decodes to `weight`.
 void join(Genome& genome, int source, int target, float weight) {
     std::erase_if(genome.edges, [&](Edge const& edge) { return edge.source == source && edge.target == target; });
@@ -39,16 +43,16 @@ Genome wanderer(Stream& rng) {
     float const strength = static_cast<float>(rng.uniform(2.0, 5.0));
     genome.biases[0] = genome.biases[1] = static_cast<float>(rng.uniform(0.38, 0.48));
     genome.biases[2] = static_cast<float>(rng.uniform(0.35, 0.45));
-    int const slow = right_handed ? 13 : 12, fast = right_handed ? 12 : 13;
+    int const slow = right_handed ? right_wheel : left_wheel, fast = right_handed ? left_wheel : right_wheel;
     for (int sensor : {0, 1, 2}) join(genome, sensor, slow, -strength);
     join(genome, right_handed ? 0 : 1, fast, static_cast<float>(rng.uniform(-1.0, 3.0)));
     for (int light : {3, 5, 7}) {   // towards balls, basket and switch
         float const pull = static_cast<float>(rng.uniform(-1.0, 5.0));
-        join(genome, light, 12, pull);
-        join(genome, light + 1, 13, pull);
+        join(genome, light, left_wheel, pull);
+        join(genome, light + 1, right_wheel, pull);
     }
     for (int bumper : {9, 10}) join(genome, bumper, slow, -5.0f);
-    for (int basket : {5, 6}) join(genome, basket, 14, static_cast<float>(rng.uniform(-5.0, 0.0)));
+    for (int basket : {5, 6}) join(genome, basket, collect, static_cast<float>(rng.uniform(-5.0, 0.0)));
     return genome;
 }
 
