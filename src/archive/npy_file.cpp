@@ -21,10 +21,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "NPY arrays are read and written as they lie in memory");
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t alignment = 64;   ///< of the data, by the format's definition
+constexpr std::size_t data_alignment = 64;   ///< of the data, by the format's definition
 
-[[noreturn]] void refuse(std::string const& path, std::string const& reason,
-                         std::string_view remedy = "Write it with numpy.save.") {
+[[noreturn]] void refuse_array(std::string const& path, std::string const& reason,
+                               std::string_view remedy = "Write it with numpy.save.") {
     throw Error(fmt::format("cannot read {}", path), reason, remedy);
 }
 
@@ -114,7 +114,7 @@ std::vector<float> values_of(std::span<std::byte const> data, std::string const&
         std::memcpy(&number, data.data() + i * sizeof number, sizeof number);
         values[i] = static_cast<float>(number);
         if (!std::isfinite(values[i]))
-            refuse(path, fmt::format("value {} is not finite", i), "Remove NaN and infinity.");
+            refuse_array(path, fmt::format("value {} is not finite", i), "Remove NaN and infinity.");
     }
     return values;
 }
@@ -128,7 +128,7 @@ void write_array(std::string const& path, std::span<T const> values, std::span<s
     std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", descr,
                                      fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
     std::size_t const before = magic.size() + 4;   // magic, two version bytes, two length bytes
-    header.append(alignment - 1 - (before + header.size()) % alignment, ' ');
+    header.append(data_alignment - 1 - (before + header.size()) % data_alignment, ' ');
     header += '\n';
     std::string file{magic};
     file += '\x01';
@@ -145,34 +145,37 @@ void write_array(std::string const& path, std::span<T const> values, std::span<s
 NpyArray read_npy(std::string const& path) {
     std::vector<std::byte> const file = read_file(path);
     std::string_view const text{reinterpret_cast<char const*>(file.data()), file.size()};
-    if (!text.starts_with(magic)) refuse(path, "it is not an NPY file", "Check the path.");
-    if (text.size() < magic.size() + 4) refuse(path, "the file was cut inside its header");
+    if (!text.starts_with(magic)) refuse_array(path, "it is not an NPY file", "Check the path.");
+    if (text.size() < magic.size() + 4) refuse_array(path, "the file was cut inside its header");
     auto const byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(text[at])); };
     std::size_t const version = byte(6);
-    if (version != 1 && version != 2) refuse(path, fmt::format("NPY version {}, this program reads 1 and 2", version));
+    if (version != 1 && version != 2)
+        refuse_array(path, fmt::format("NPY version {}, this program reads 1 and 2", version));
     std::size_t const start = version == 1 ? 10 : 12;
-    if (text.size() < start) refuse(path, "the file was cut inside its header");
+    if (text.size() < start) refuse_array(path, "the file was cut inside its header");
     std::size_t length = byte(8) | byte(9) << 8;
     if (version == 2) length |= byte(10) << 16 | byte(11) << 24;
-    if (length > text.size() - start) refuse(path, "the file was cut inside its header");
+    if (length > text.size() - start) refuse_array(path, "the file was cut inside its header");
 
     auto header = HeaderReader{text.substr(start, length)}.read();
-    if (!header) refuse(path, "its header cannot be understood");
+    if (!header) refuse_array(path, "its header cannot be understood");
     bool const is_double = header->descr == "<f8", is_count = header->descr == "<u4";
     if (!is_double && !is_count && header->descr != "<f4")
-        refuse(path, fmt::format("its values are '{}', not '<f4', '<f8' or '<u4'", header->descr),
-               "Convert them with astype('float32').");
-    if (header->fortran_order) refuse(path, "its values are in Fortran order", "Save numpy.ascontiguousarray(...).");
+        refuse_array(path, fmt::format("its values are '{}', not '<f4', '<f8' or '<u4'", header->descr),
+                     "Convert them with astype('float32').");
+    if (header->fortran_order)
+        refuse_array(path, "its values are in Fortran order", "Save numpy.ascontiguousarray(...).");
     auto const data = std::span{file}.subspan(start + length);
     std::size_t const value_size = is_double ? 8 : 4;
     std::size_t count = 1;
     for (std::size_t const size : header->shape) {
-        if (size != 0 && count > data.size() / size) refuse(path, "the file was cut: its shape needs more values");
+        if (size != 0 && count > data.size() / size)
+            refuse_array(path, "the file was cut: its shape needs more values");
         count *= size;
     }
     if (count * value_size != data.size())
-        refuse(path, fmt::format("{} bytes of values, its shape ({}) needs {}", data.size(),
-                                 fmt::join(header->shape, ", "), count * value_size));
+        refuse_array(path, fmt::format("{} bytes of values, its shape ({}) needs {}", data.size(),
+                                       fmt::join(header->shape, ", "), count * value_size));
     return {std::move(header->shape), is_double  ? values_of<double>(data, path)
                                       : is_count ? values_of<std::uint32_t>(data, path)
                                                  : values_of<float>(data, path)};

@@ -58,7 +58,8 @@ Lives const& teachers() {
 KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_index) {
     KnowledgeBuilder builder{{}, std::move(empty_index)};
     std::size_t const count = std::min(static_cast<std::size_t>(individuals), teachers().windows.size());
-    for (std::size_t i = 0; i < count; ++i) builder.add_individual({teachers().windows[i], teachers().balls[i]});
+    for (std::size_t i = 0; i < count; ++i)
+        builder.add_individual({teachers().windows[i], static_cast<double>(teachers().balls[i])});
     Provenance provenance;
     provenance.made_by = "lore-bench";
     provenance.kind = "lineage";

@@ -10,12 +10,12 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void plan_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
     add_launcher(app, arguments);
 }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode print_plan(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
     CampaignDirectory const directory{arguments.directory};
     auto const choice = recorded_choice(directory);
@@ -33,6 +33,6 @@ ExitCode work(Arguments const& arguments) {
 
 }   // namespace
 
-Subcommand const plan{"plan", "list the steps, what each waits for, and its command", add_options, work};
+Subcommand const plan{"plan", "list the steps, what each waits for, and its command", plan_options, print_plan};
 
 }   // namespace lore::campaign_program

@@ -7,9 +7,9 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) { add_campaign(app, arguments); }
+void replay_options(CLI::App& app, Arguments& arguments) { add_campaign(app, arguments); }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode replay_champions(Arguments const& arguments) {
     CampaignDirectory const directory{arguments.directory};
     make_replays(read_campaign(arguments.file), directory, directory);
     if (!arguments.quiet) fmt::print("{}\n", directory.file("scene.json"));
@@ -18,6 +18,7 @@ ExitCode work(Arguments const& arguments) {
 
 }   // namespace
 
-Subcommand const replay{"replay", "simulate what figures 5 and 6 show: the last step of `run`", add_options, work};
+Subcommand const replay{"replay", "simulate what figures 5 and 6 show: the last step of `run`", replay_options,
+                        replay_champions};
 
 }   // namespace lore::campaign_program

@@ -8,12 +8,12 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void report_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
     app.add_option("--out", arguments.out, "write them here, not beside the runs (default: --dir)")->type_name("DIR");
 }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode write_report(Arguments const& arguments) {
     CampaignDirectory const from{arguments.directory};
     CampaignDirectory const into{arguments.out.empty() ? arguments.directory : arguments.out};
     CampaignPlan const campaign = read_campaign(arguments.file);
@@ -27,6 +27,7 @@ ExitCode work(Arguments const& arguments) {
 
 }   // namespace
 
-Subcommand const report{"report", "tables, figures and report.html from what is there by now", add_options, work};
+Subcommand const report{"report", "tables, figures and report.html from what is there by now", report_options,
+                        write_report};
 
 }   // namespace lore::campaign_program

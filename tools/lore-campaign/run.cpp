@@ -9,7 +9,7 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void run_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
     add_launcher(app, arguments);
     app.add_option("-j,--jobs", arguments.jobs, "steps at a time (default: cores / ranks)")
@@ -18,7 +18,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
                    "only these steps or groups, such as source, source/007 or knowledge/kb1");
 }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode run_steps(Arguments const& arguments) {
     RunnerOptions options = arguments.runner;
     int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     options.jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores / options.launcher.ranks);
@@ -30,6 +30,6 @@ ExitCode work(Arguments const& arguments) {
 
 Subcommand const run{"run",
                      "work through the steps on this machine; finished ones are skipped, interrupted ones resumed",
-                     add_options, work};
+                     run_options, run_steps};
 
 }   // namespace lore::campaign_program

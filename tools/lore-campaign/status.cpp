@@ -13,9 +13,9 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) { add_campaign(app, arguments); }
+void status_options(CLI::App& app, Arguments& arguments) { add_campaign(app, arguments); }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode show_status(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
     CampaignDirectory const directory{arguments.directory};
     std::map<StepStatus, int> counts;
@@ -40,7 +40,7 @@ ExitCode work(Arguments const& arguments) {
 
 }   // namespace
 
-Subcommand const status{"status", "done / running / interrupted / failed / missing, with the reason", add_options,
-                        work};
+Subcommand const status{"status", "done / running / interrupted / failed / missing, with the reason", status_options,
+                        show_status};
 
 }   // namespace lore::campaign_program

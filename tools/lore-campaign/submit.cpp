@@ -9,7 +9,7 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void submit_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
     add_launcher(app, arguments);
     app.add_option("--time", arguments.time_limit, "limit of a task, HH:MM:SS (default: the campaign's)");
@@ -21,7 +21,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
     app.add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
 }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode submit_steps(Arguments const& arguments) {
     CampaignPlan campaign = read_campaign(arguments.file);
     if (!arguments.time_limit.empty()) campaign.cluster.time_limit = arguments.time_limit;
     if (arguments.concurrent > 0) campaign.cluster.concurrent = arguments.concurrent;
@@ -37,6 +37,6 @@ ExitCode work(Arguments const& arguments) {
 }   // namespace
 
 Subcommand const submit{"submit", "write Slurm job scripts to DIR/slurm for what is not done yet, and submit them",
-                        add_options, work};
+                        submit_options, submit_steps};
 
 }   // namespace lore::campaign_program

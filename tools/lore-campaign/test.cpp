@@ -12,7 +12,7 @@ namespace lore::campaign_program {
 
 namespace {
 
-void add_options(CLI::App& app, Arguments& arguments) {
+void test_options(CLI::App& app, Arguments& arguments) {
     app.add_option("A", arguments.first, "first sample")->required();
     app.add_option("B", arguments.second, "second sample")->required();
     app.add_flag("--interval", arguments.interval, "also the 95 % bootstrap interval of A12");
@@ -40,7 +40,7 @@ std::vector<double> read_sample(std::string const& path) {
     return sample;
 }
 
-ExitCode work(Arguments const& arguments) {
+ExitCode test_samples(Arguments const& arguments) {
     auto const first = read_sample(arguments.first), second = read_sample(arguments.second);
     MannWhitney const result = mann_whitney(first, second);
     fmt::print("U {} p {} A12 {}", result.u, result.p, vargha_delaney_a12(first, second));
@@ -54,6 +54,7 @@ ExitCode work(Arguments const& arguments) {
 
 }   // namespace
 
-Subcommand const test{"test", "two-sided Mann-Whitney test of two files with one number a line", add_options, work};
+Subcommand const test{"test", "two-sided Mann-Whitney test of two files with one number a line", test_options,
+                      test_samples};
 
 }   // namespace lore::campaign_program

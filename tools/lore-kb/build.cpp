@@ -14,7 +14,7 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct BuildOptions {
     std::string run, out, index = "exact";
     std::optional<std::string> individual;
     bool all = false;
@@ -27,7 +27,7 @@ struct Options {
     int success = 0;   ///< of all
 };
 
-KnowledgeConfig config_of(Options const& options, RunDirectory const& run) {
+KnowledgeConfig config_of(BuildOptions const& options, RunDirectory const& run) {
     KnowledgeConfig config = run.config.knowledge;
     config.window_length = options.window_length.value_or(config.window_length);
     config.match_threshold = options.threshold.value_or(config.match_threshold);
@@ -39,7 +39,7 @@ KnowledgeConfig config_of(Options const& options, RunDirectory const& run) {
 }
 
 /// Refuses a rule whose evidence such a build does not gather, before it starts.
-void check_evidence(Options const& options, ValueConfig const& value) {
+void check_evidence(BuildOptions const& options, ValueConfig const& value) {
     auto const refuse = [&](char const* why, char const* remedy) {
         throw UsageError(fmt::format("value rule {} needs evidence that the base does not have", name(value.rule)), why,
                          remedy);
@@ -51,7 +51,7 @@ void check_evidence(Options const& options, ValueConfig const& value) {
 }
 
 /// Those that were asked for, in increasing order, each once.
-std::vector<double> gammas_of(Options const& options, ValueConfig const& value) {
+std::vector<double> gammas_of(BuildOptions const& options, ValueConfig const& value) {
     std::vector<double> gammas = options.gammas;
     if (value.rule == ValueRule::discounted_return) gammas.push_back(value.gamma);
     for (double const gamma : gammas) check_gamma(gamma);
@@ -63,7 +63,7 @@ std::vector<double> gammas_of(Options const& options, ValueConfig const& value) 
     return gammas;
 }
 
-void build(Program const& program, Options const& options) {
+void build(Program const& program, BuildOptions const& options) {
     if (options.all && options.individual)
         throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
     ValueConfig const value = value_config(options.value, options.gamma);
@@ -94,7 +94,7 @@ void build(Program const& program, Options const& options) {
 }   // namespace
 
 void add_build(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<BuildOptions>();
     CLI::App* const command = add_command(app, program, "build", "Build a knowledge base from a run", options, build);
     command->add_option("RUN_DIR", options->run, "directory of a run")->required();
     add_out(command, options->out);

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Fits = std::array<EffectorFit, effector_count>;
 
-struct Options {
+struct CloneOptions {
     std::string base, out;
     CloneConfig config;
     bool json = false;
@@ -42,7 +42,7 @@ void print_fit(Clones const& clones) {
                    clones.constant[e].cross_entropy, clones.fit[e].absolute_error, clones.constant[e].absolute_error);
 }
 
-void clone(Program const& program, Options const& options) {
+void clone(Program const& program, CloneOptions const& options) {
     check_writable(options.out);
     KnowledgeBase const base = read_knowledge_base(options.base);
     CloneConfig const& config = options.config;
@@ -70,7 +70,7 @@ void clone(Program const& program, Options const& options) {
 }   // namespace
 
 void add_clone(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<CloneOptions>();
     CloneConfig& config = options->config;
     CLI::App* const command =
         add_command(app, program, "clone", "Make founders that act as windows of a knowledge base do, drawn by value",

@@ -11,11 +11,11 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct ExportOptions {
     std::string base, npy, csv;
 };
 
-void export_base(Program const& program, Options const& options) {
+void export_base(Program const& program, ExportOptions const& options) {
     if (options.npy.empty() == options.csv.empty())
         throw UsageError("cannot export", "one format is needed", "Give either --npy DIR or --csv FILE.");
     KnowledgeBase const base = read_knowledge_base(options.base);
@@ -30,7 +30,7 @@ void export_base(Program const& program, Options const& options) {
 }   // namespace
 
 void add_export(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ExportOptions>();
     CLI::App* const command =
         add_command(app, program, "export", "Write the features for other programs", options, export_base);
     add_base(command, options->base);

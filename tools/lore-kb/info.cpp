@@ -16,7 +16,7 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct InfoOptions {
     std::string base;
     bool json = false;
 };
@@ -89,7 +89,7 @@ void print_text(KnowledgeBase const& base, ValueSummary const& summary) {
     fmt::print("made by      {}\n", origin.made_by);
 }
 
-void info(Program const&, Options const& options) {
+void info(Program const&, InfoOptions const& options) {
     KnowledgeBase const base = read_knowledge_base(options.base);
     ValueSummary const summary = summarize(base.values(), 10);
     if (options.json) print_json(base, summary);
@@ -99,7 +99,7 @@ void info(Program const&, Options const& options) {
 }   // namespace
 
 void add_info(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<InfoOptions>();
     CLI::App* const command =
         add_command(app, program, "info", "Show what is in a knowledge base and where it came from", options, info);
     add_base(command, options->base);

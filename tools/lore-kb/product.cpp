@@ -13,7 +13,7 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct ProductOptions {
     std::vector<std::string> bases;
     std::string run, csv;
     std::optional<std::string> individual;
@@ -34,7 +34,7 @@ std::vector<Shaper> shapers_of(std::vector<std::string> const& paths) {
     return shapers;
 }
 
-void product(Program const& program, Options const& options) {
+void product(Program const& program, ProductOptions const& options) {
     check_writable(options.csv);
     Trace const trace = trace_of(open_run(options.run), options.individual.value_or("best"));
     std::vector<Shaper> const shapers = shapers_of(options.bases);
@@ -60,7 +60,7 @@ void product(Program const& program, Options const& options) {
 }   // namespace
 
 void add_product(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ProductOptions>();
     CLI::App* const command =
         add_command(app, program, "product", "Multiply the values of several knowledge bases along an evaluation",
                     options, product);

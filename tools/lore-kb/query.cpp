@@ -14,12 +14,12 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct QueryOptions {
     std::string base, run, windows, csv, index = "exact";
     std::optional<std::string> individual;
 };
 
-void query(Program const& program, Options const& options) {
+void query(Program const& program, QueryOptions const& options) {
     if (options.run.empty() == options.windows.empty())
         throw UsageError("cannot query", "one source of windows is needed",
                          "Give either --run DIR or --windows FILE.npy.");
@@ -50,7 +50,7 @@ void query(Program const& program, Options const& options) {
 }   // namespace
 
 void add_query(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<QueryOptions>();
     CLI::App* const command = add_command(app, program, "query", "Look windows up", options, query);
     add_base(command, options->base);
     command->add_option("--run", options->run, "windows of an individual of this run");

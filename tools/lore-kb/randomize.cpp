@@ -7,13 +7,13 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct RandomizeOptions {
     std::string base, out;
     std::uint64_t seed = 0;
     bool permute = false;
 };
 
-void randomize(Program const& program, Options const& options) {
+void randomize(Program const& program, RandomizeOptions const& options) {
     check_writable(options.out);
     KnowledgeBase const base = read_knowledge_base(options.base);
     write_derived(program, options.out,
@@ -23,7 +23,7 @@ void randomize(Program const& program, Options const& options) {
 }   // namespace
 
 void add_randomize(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<RandomizeOptions>();
     CLI::App* const command =
         add_command(app, program, "randomize", "Replace the values by random ones ('KB random')", options, randomize);
     add_base(command, options->base);

@@ -8,14 +8,14 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct ReduceOptions {
     std::string base, out;
     std::optional<int> top, least_count;
     std::optional<double> least_value;
     std::vector<std::string> consensus;
 };
 
-void reduce(Program const& program, Options const& options) {
+void reduce(Program const& program, ReduceOptions const& options) {
     int const rules = options.top.has_value() + options.least_value.has_value() + options.least_count.has_value() +
                       !options.consensus.empty();
     if (rules != 1)
@@ -41,7 +41,7 @@ void reduce(Program const& program, Options const& options) {
 }   // namespace
 
 void add_reduce(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ReduceOptions>();
     CLI::App* const command = add_command(app, program, "reduce", "Keep some of the features", options, reduce);
     add_base(command, options->base);
     command->add_option("--top", options->top, "this many of highest value")->check(CLI::Range(1, 1000000000));

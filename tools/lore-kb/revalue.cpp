@@ -7,12 +7,12 @@ namespace lore::kb {
 
 namespace {
 
-struct Options {
+struct RevalueOptions {
     std::string base, out, value;
     std::optional<double> gamma;
 };
 
-void revalue(Program const& program, Options const& options) {
+void revalue(Program const& program, RevalueOptions const& options) {
     ValueConfig const value = value_config(options.value, options.gamma);
     check_writable(options.out);
     write_derived(program, options.out, lore::revalue(read_knowledge_base(options.base), value), {options.base});
@@ -21,7 +21,7 @@ void revalue(Program const& program, Options const& options) {
 }   // namespace
 
 void add_revalue(CLI::App& app, Program& program) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<RevalueOptions>();
     CLI::App* const command =
         add_command(app, program, "revalue", "Value the features by another rule, from the evidence of the build",
                     options, revalue);

@@ -155,7 +155,7 @@ TEST(DamagedMessage, ends_all_ranks_within_seconds) {
 }
 
 TEST(OutOfMemory, in_the_midst_of_evolution_ends_all_ranks_with_one_line) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(LORE_SANITIZED)
     GTEST_SKIP() << "sanitizers want all of the address space";
 #else
     Scratch const scratch;
