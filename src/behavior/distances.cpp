@@ -1,12 +1,11 @@
 #include <lore/behavior/distances.h>
 
-#include <lore/core/error.h>
+#include <lore/core/names.h>
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace lore {
@@ -99,22 +98,19 @@ Definition const& definition_of(DistanceKind kind) {
     return definitions[static_cast<std::size_t>(kind)];
 }
 
+constexpr auto kind_names = [] {
+    Names<DistanceKind, definitions.size()> names;
+    for (std::size_t k = 0; k < definitions.size(); ++k) names.words[k] = definitions[k].name;
+    return names;
+}();
+
 }   // namespace
 
-std::string_view name(DistanceKind kind) { return definition_of(kind).name; }
+std::string_view name(DistanceKind kind) { return kind_names[kind]; }
 
-std::string distance_names() {
-    std::string names;
-    for (Definition const& definition : definitions) names.append(names.empty() ? "" : ", ").append(definition.name);
-    return names;
-}
+std::string distance_names() { return kind_names.list(); }
 
-DistanceKind distance_kind(std::string_view wanted) {
-    for (Definition const& definition : definitions)
-        if (definition.name == wanted) return definition.kind;
-    throw UsageError("'" + std::string{wanted} + "' is not a behavioral distance", "known are " + distance_names(),
-                     "Correct the name.");
-}
+DistanceKind distance_kind(std::string_view wanted) { return kind_names.choice(wanted, "a behavioral distance"); }
 
 double distance(DistanceKind kind, Descriptors const& a, Descriptors const& b) {
     return definition_of(kind).distance(a, b);

@@ -2,6 +2,7 @@
 
 #include <lore/core/error.h>
 #include <lore/core/file.h>
+#include <lore/core/input_file.h>
 #include <lore/experiment/manifest.h>
 
 #include <lore/campaign/steps.h>
@@ -12,6 +13,7 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -58,7 +60,7 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
             [[maybe_unused]] auto const said = ::write(STDERR_FILENO, part, std::strlen(part));
         ::_exit(127);
     }
-    ::setpgid(pid, pid);   // here too: whoever is first
+    ::setpgid(pid, pid);   // here too: parent or child may come first
     ::close(output);
     return pid;
 }
@@ -79,12 +81,12 @@ void append_to_log(std::string const& path, std::string const& line) {
 }
 
 std::vector<std::string> last_lines(std::string const& path, std::size_t count) {
-    std::ifstream file{path, std::ios::binary | std::ios::ate};
-    if (!file) return {};
-    std::streamoff const size = file.tellg();
-    file.seekg(std::max<std::streamoff>(0, size - 16384));
+    std::istringstream tail;
+    try {
+        tail.str(last_bytes(open_regular(path), 16384));
+    } catch (Error const&) { return {}; }   // no log is no reason to stop
     std::deque<std::string> lines;
-    for (std::string line; std::getline(file, line);) {
+    for (std::string line; std::getline(tail, line);) {
         if (line.empty() || line.starts_with("== ")) continue;
         lines.push_back(line.substr(0, 400));
         if (lines.size() > count) lines.pop_front();

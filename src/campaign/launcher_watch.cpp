@@ -12,6 +12,8 @@ namespace lore {
 
 namespace {
 
+// Files of /proc are read as they are: the kernel makes them, and a process that has ended has none.
+
 /// Children of all threads of a process, the dead ones among them.
 std::vector<pid_t> children_of(pid_t process) {
     std::vector<pid_t> children;

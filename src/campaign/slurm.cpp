@@ -4,12 +4,12 @@
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
+#include <lore/core/input_file.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -165,7 +165,7 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
     check_times(plan.cluster);
     std::string const record = directory.file("slurm/jobs.txt");
     if (!only_write && fs::exists(record)) {
-        std::ifstream file{record};
+        std::istringstream file{read_text(record)};
         std::vector<std::string> ids;
         for (std::string id, group; file >> id >> group;) ids.push_back(id);
         // squeue complains about ids that it has forgotten, so all of the user's jobs are asked for.

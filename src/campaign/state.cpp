@@ -5,6 +5,8 @@
 #include <lore/campaign/choice.h>
 #include <lore/campaign/replay_step.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
+#include <lore/core/names.h>
 #include <lore/core/whole_number.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/progress_file.h>
@@ -12,7 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -96,14 +97,8 @@ bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step
 }   // namespace
 
 std::string_view name(StepStatus status) {
-    switch (status) {
-    case StepStatus::done: return "done";
-    case StepStatus::running: return "running";
-    case StepStatus::interrupted: return "interrupted";
-    case StepStatus::failed: return "failed";
-    case StepStatus::missing: return "missing";
-    }
-    return "";
+    constexpr auto names = names_for<StepStatus>("done", "running", "interrupted", "failed", "missing");
+    return names[status];
 }
 
 std::optional<Choice> recorded_choice(CampaignDirectory const& directory) {
@@ -163,9 +158,9 @@ void write_failure(CampaignDirectory const& directory, Step const& step, Failure
 std::optional<FailureRecord> read_failure(CampaignDirectory const& directory, Step const& step) {
     std::string const path = directory.record(step.name);
     if (!fs::exists(path)) return std::nullopt;
+    std::string const text = read_text(path);
     try {
-        std::ifstream file{path};
-        auto const document = nlohmann::json::parse(file);
+        auto const document = nlohmann::json::parse(text);
         return FailureRecord{whole_number<int>(document.at("attempts")), document.at("how"), document.at("log_tail")};
     } catch (std::exception const& error) {
         throw Error(fmt::format("cannot read {}", path), error.what(), "Remove it: the step is then tried again.");

@@ -19,15 +19,21 @@ std::string_view trimmed(std::string_view field) {
 
 /// Appends the line's fields; returns how many.
 std::size_t split(std::string_view line, std::vector<std::string_view>& fields) {
-    for (std::size_t count = 1;; ++count) {
-        std::size_t const comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return count;
-        line.remove_prefix(comma + 1);
-    }
+    std::size_t const before = fields.size();
+    for (CsvFields of_line{line}; auto const field = of_line.next();) fields.push_back(trimmed(*field));
+    return fields.size() - before;
 }
 
 }   // namespace
+
+std::optional<std::string_view> CsvFields::next() {
+    if (ended_) return std::nullopt;
+    std::size_t const comma = rest_.find(',');
+    std::string_view const field = rest_.substr(0, comma);
+    ended_ = comma == std::string_view::npos;
+    if (!ended_) rest_.remove_prefix(comma + 1);
+    return field;
+}
 
 CsvTable CsvTable::read(std::string const& path, std::string_view remedy) {
     return CsvTable{path, read_text(path), remedy};

@@ -1,6 +1,7 @@
 #include <lore/core/input_file.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -96,6 +97,22 @@ Buffer read_whole(InputFile const& file, std::uint64_t limit) {
     return content;
 }
 
+std::string bytes_from(InputFile const& file, std::uint64_t start, std::uint64_t count) {
+    assert(file.regular);
+    std::string bytes(static_cast<std::size_t>(count), '\0');
+    std::size_t filled = 0;
+    while (filled < bytes.size()) {
+        ssize_t const got = ::pread(file.descriptor.get(), bytes.data() + filled, bytes.size() - filled,
+                                    static_cast<off_t>(start + filled));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw file_error("read", file.path, errno);
+        if (got == 0) break;   // cut meanwhile
+        filled += static_cast<std::size_t>(got);
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
 }   // namespace
 
 InputFile open_input(std::string const& path) {
@@ -128,6 +145,15 @@ std::vector<std::byte> read_bytes(std::string const& path, std::uint64_t limit) 
 
 std::string read_text(std::string const& path, std::uint64_t limit) {
     return read_whole<std::string>(open_input(path), limit);
+}
+
+std::string first_bytes(InputFile const& file, std::uint64_t bytes) {
+    return bytes_from(file, 0, std::min(bytes, file.size));
+}
+
+std::string last_bytes(InputFile const& file, std::uint64_t bytes) {
+    std::uint64_t const count = std::min(bytes, file.size);
+    return bytes_from(file, file.size - count, count);
 }
 
 }   // namespace lore

@@ -1,6 +1,6 @@
 #include <lore/core/isa.h>
 
-#include <lore/core/error.h>
+#include <lore/core/names.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -10,27 +10,26 @@ namespace lore {
 
 namespace {
 
-constexpr std::string_view isa_names[]{"baseline", "v3", "v4"};
+constexpr auto isa_names = names_for<Isa>("baseline", "v3", "v4");
 std::atomic<int> chosen{-1};
 
 Isa from_environment() {
     char const* const wish = std::getenv("LORE_ISA");
     if (wish == nullptr || *wish == '\0') return detected_isa();
-    for (int i = 0; i < 3; ++i) {
-        if (isa_names[i] != wish) continue;
-        if (static_cast<Isa>(i) > detected_isa())
-            throw UsageError("LORE_ISA=" + std::string{wish} + " cannot be used",
-                             "this processor or build has no more than " + std::string{name(detected_isa())},
-                             "Unset LORE_ISA to take the best set.");
-        return static_cast<Isa>(i);
-    }
-    throw UsageError("LORE_ISA=" + std::string{wish} + " is not an instruction set", "known are baseline, v3, v4",
-                     "Unset LORE_ISA to take the best set.");
+    constexpr std::string_view remedy = "Unset LORE_ISA to take the best set.";
+    auto const isa = isa_names.find(wish);
+    if (!isa)
+        throw UsageError("LORE_ISA=" + std::string{wish} + " is not an instruction set",
+                         "known are " + isa_names.list(), remedy);
+    if (*isa > detected_isa())
+        throw UsageError("LORE_ISA=" + std::string{wish} + " cannot be used",
+                         "this processor or build has no more than " + std::string{name(detected_isa())}, remedy);
+    return *isa;
 }
 
 }   // namespace
 
-std::string_view name(Isa isa) { return isa_names[static_cast<int>(isa)]; }
+std::string_view name(Isa isa) { return isa_names[isa]; }
 
 Isa detected_isa() {
     if constexpr (LORE_ISA_COUNT == 1) return Isa::baseline;

@@ -1,19 +1,18 @@
 #include <lore/evolution/selection.h>
 
-#include <lore/core/error.h>
+#include <lore/core/names.h>
 #include <lore/core/random.h>
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <numeric>
-#include <string>
 
 namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> rule_names{"random", "older", "younger"};
+constexpr auto rule_names = names_for<TieRule>("random", "older", "younger");
 
 /// Shuffles of 0 .. members-1 laid end to end, at least `length` long, in which no pair (2k, 2k+1) is one member twice
 /// (unless there is only one).
@@ -32,15 +31,9 @@ std::vector<int> tournament_draw(int members, int length, Stream& rng) {
 
 }   // namespace
 
-std::string_view name(TieRule rule) { return rule_names[static_cast<std::size_t>(rule)]; }
+std::string_view name(TieRule rule) { return rule_names[rule]; }
 
-TieRule tie_rule(std::string_view wanted) {
-    auto const found = std::find(rule_names.begin(), rule_names.end(), wanted);
-    if (found == rule_names.end())
-        throw UsageError("'" + std::string{wanted} + "' is not a rule for ties", "known are random, older, younger",
-                         "Correct the name.");
-    return static_cast<TieRule>(found - rule_names.begin());
-}
+TieRule tie_rule(std::string_view wanted) { return rule_names.choice(wanted, "a rule for ties"); }
 
 std::uint64_t tie_key(TieRule rule, std::uint64_t seed, int generation, IndividualId id) {
     std::uint64_t const by_birth = (static_cast<std::uint64_t>(id.generation) << 32) | id.slot;

@@ -1,29 +1,18 @@
 #include <lore/evolution/shaping.h>
 
-#include <lore/core/error.h>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
+#include <lore/core/names.h>
 
 namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> use_names{"objective", "distance", "ties"};
+constexpr auto use_names = names_for<ShapingUse>("objective", "distance", "ties");
 
 }   // namespace
 
-std::string_view name(ShapingUse use) { return use_names[static_cast<std::size_t>(use)]; }
+std::string_view name(ShapingUse use) { return use_names[use]; }
 
-ShapingUse shaping_use(std::string_view wanted) {
-    auto const found = std::find(use_names.begin(), use_names.end(), wanted);
-    if (found == use_names.end())
-        throw UsageError(fmt::format("'{}' is not a use of shaping", wanted), "known are objective, distance, ties",
-                         "Correct the name.");
-    return static_cast<ShapingUse>(found - use_names.begin());
-}
+ShapingUse shaping_use(std::string_view wanted) { return use_names.choice(wanted, "a use of shaping"); }
 
 std::vector<double> shares(std::span<Individual const> pool, std::span<double const> values) {
     std::vector<std::uint32_t> showing(values.size(), 0);

@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/checksum.h>
 #include <lore/core/error.h>
+#include <lore/core/names.h>
 #include <lore/core/whole_number.h>
 
 #include <fmt/chrono.h>
@@ -20,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int manifest_format = 1;
-constexpr std::string_view status_names[]{"running", "interrupted", "done"};
+constexpr auto status_names = names_for<RunStatus>("running", "interrupted", "done");
 
 Json to_json(std::vector<FileRecord> const& files) {
     Json list = Json::array();
@@ -69,7 +70,7 @@ RunSession session_from(Json const& json) {
 
 }   // namespace
 
-std::string_view name(RunStatus status) { return status_names[static_cast<int>(status)]; }
+std::string_view name(RunStatus status) { return status_names[status]; }
 
 void write_manifest(std::string const& path, Manifest const& manifest) {
     Json libraries = Json::object();
@@ -110,9 +111,9 @@ Manifest read_manifest(std::string const& path) {
                         "Update Lore.");
         Manifest manifest;
         std::string const status = json.at("status");
-        auto const known = std::find(std::begin(status_names), std::end(status_names), status);
-        if (known == std::end(status_names)) throw std::out_of_range("unknown status '" + status + "'");
-        manifest.status = static_cast<RunStatus>(known - std::begin(status_names));
+        auto const known = status_names.find(status);
+        if (!known) throw std::out_of_range("unknown status '" + status + "'");
+        manifest.status = *known;
         manifest.name = json.at("name");
         manifest.task = json.at("task");
         manifest.seed = whole_number<std::uint64_t>(json.at("seed"));

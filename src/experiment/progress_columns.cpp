@@ -1,5 +1,6 @@
 #include "progress_columns.h"
 
+#include <lore/core/csv.h>
 #include <lore/core/error.h>
 
 #include <fmt/format.h>
@@ -70,24 +71,6 @@ constexpr ProgressColumn columns[]{
     {"seconds", milliseconds, read<&Row::seconds>},
 };
 
-/// Fields of a line, one after the other.
-class Fields {
-public:
-    explicit Fields(std::string_view line) : rest_(line) {}
-    std::optional<std::string_view> next() {
-        if (ended_) return std::nullopt;
-        std::size_t const comma = rest_.find(',');
-        std::string_view const field = rest_.substr(0, comma);
-        ended_ = comma == std::string_view::npos;
-        rest_.remove_prefix(ended_ ? rest_.size() : comma + 1);
-        return field;
-    }
-
-private:
-    std::string_view rest_;
-    bool ended_ = false;
-};
-
 }   // namespace
 
 std::span<ProgressColumn const> progress_columns() { return columns; }
@@ -95,7 +78,7 @@ std::span<ProgressColumn const> progress_columns() { return columns; }
 std::optional<FileColumns> columns_named(std::string_view header, std::span<ProgressColumn const> known,
                                          std::size_t required) {
     FileColumns named;
-    Fields fields{header};
+    CsvFields fields{header};
     while (auto const field = fields.next()) {
         auto const column =
             std::find_if(known.begin(), known.end(), [&](ProgressColumn const& one) { return one.name == *field; });
@@ -128,7 +111,7 @@ std::string row_text(FileColumns const& of_file, GenerationSummary const& row) {
 
 std::optional<GenerationSummary> row_from(FileColumns const& of_file, std::string_view line) {
     GenerationSummary row;
-    Fields fields{line};
+    CsvFields fields{line};
     for (ProgressColumn const* column : of_file) {
         auto const field = fields.next();
         if (!field || !column->read(*field, row)) return std::nullopt;

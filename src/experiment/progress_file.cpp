@@ -4,13 +4,13 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -25,7 +25,8 @@ namespace {
 }
 
 /// A row has some 120 bytes.
-constexpr std::streamoff longest_tail = 2048;
+constexpr std::uint64_t longest_tail = 2048;
+constexpr std::uint64_t longest_header = 4096;
 
 FileColumns columns_of(std::string_view header, std::string const& path) {
     auto columns = columns_named(header);
@@ -69,18 +70,19 @@ std::vector<GenerationSummary> read_progress(std::string const& path) {
 }
 
 std::optional<GenerationSummary> read_last_progress(std::string const& path) {
-    std::ifstream file{path, std::ios::binary};
-    std::string header;
-    if (!std::getline(file, header)) return std::nullopt;
+    std::string start, tail;
+    std::size_t header_bytes = 0;
+    try {
+        InputFile const file = open_regular(path);
+        start = first_bytes(file, longest_header);
+        header_bytes = start.find('\n') + 1;   // npos + 1 is 0
+        tail = last_bytes(file, std::min<std::uint64_t>(file.size - header_bytes, longest_tail));
+    } catch (Error const&) { return std::nullopt; }
+    if (header_bytes == 0) return std::nullopt;
+    std::string_view const header = std::string_view{start}.substr(0, header_bytes - 1);
     auto const columns = columns_named(header, progress_columns(), 0);   // a look at whatever is there
-    if (!columns) return std::nullopt;
-    std::streamoff const first_row = file.tellg();
-    std::streamoff const size = file.seekg(0, std::ios::end).tellg();
-    std::string tail(static_cast<std::size_t>(std::min(size - first_row, longest_tail)), '\0');
-    file.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-    if (!file.read(tail.data(), static_cast<std::streamsize>(tail.size()))) return std::nullopt;
     std::size_t const end = tail.rfind('\n');
-    if (end == std::string::npos || end == 0) return std::nullopt;
+    if (!columns || end == std::string::npos || end == 0) return std::nullopt;
     std::size_t const begin = tail.rfind('\n', end - 1) + 1;   // npos + 1 is 0
     return row_from(*columns, std::string_view{tail}.substr(begin, end - begin));
 }
@@ -103,9 +105,8 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(st
         columns_ = all_columns();
         write(header_of(columns_) + "\n");
     } else {
-        std::string header;
-        std::getline(std::ifstream{path_}, header);
-        columns_ = columns_of(header, path_);
+        std::string const start = first_bytes(open_regular(path_), longest_header);
+        columns_ = columns_of(std::string_view{start}.substr(0, start.find('\n')), path_);
     }
 }
 

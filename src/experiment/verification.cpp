@@ -7,7 +7,9 @@
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
+#include <lore/core/csv.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
@@ -92,22 +94,10 @@ std::string verify_json(std::string const& path) {
 
 /// Rows as long as the header, the last one ended: a table that was cut is told by it, but not one that was edited.
 std::string verify_table(std::string const& path) {
-    std::vector<std::byte> const bytes = read_file(path);
-    std::string_view const text{reinterpret_cast<char const*>(bytes.data()), bytes.size()};
-    auto const refuse = [&](std::string const& reason) {
-        throw Error(fmt::format("cannot read {}", path), reason, "Take a copy that is whole.");
-    };
-    if (text.empty() || text.back() != '\n') refuse("its last line was cut");
-    std::size_t columns = 0, lines = 0;
-    for (std::size_t start = 0; start < text.size(); ++lines) {
-        std::size_t const end = text.find('\n', start);
-        std::string_view const line = text.substr(start, end - start);
-        auto const fields = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
-        if (lines == 0) columns = fields;
-        if (fields != columns) refuse(fmt::format("line {} has {} columns, its header {}", lines + 1, fields, columns));
-        start = end + 1;
-    }
-    return fmt::format("table of {} rows", lines - 1);
+    constexpr std::string_view remedy = "Take a copy that is whole.";
+    std::string text = read_text(path, most_data);
+    if (!text.ends_with('\n')) throw Error(fmt::format("cannot read {}", path), "its last line was cut", remedy);
+    return fmt::format("table of {} rows", CsvTable{path, std::move(text), remedy}.rows());
 }
 
 std::string verify_directory(std::string const& path) {

@@ -1,8 +1,6 @@
 #include <lore/knowledge/index.h>
 
-#include <lore/core/error.h>
-
-#include <array>
+#include <lore/core/names.h>
 
 #include <fmt/format.h>
 
@@ -10,7 +8,7 @@ namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> index_names{"exact", "flann"};
+constexpr auto index_names = names_for<IndexKind>("exact", "flann");
 
 /// Keeps all features and compares every one.
 class ScanIndex : public FeatureIndex {
@@ -65,11 +63,10 @@ Window FeatureWindows::window(int feature, int window_length) const {
     return {{bits.data() + first, length}, {values.data() + first * continuous_count, length * continuous_count}};
 }
 
-std::string_view name(IndexKind kind) { return index_names[static_cast<std::size_t>(kind)]; }
+std::string_view name(IndexKind kind) { return index_names[kind]; }
 
 IndexKind index_kind(std::string_view name) {
-    for (std::size_t i = 0; i < index_names.size(); ++i)
-        if (index_names[i] == name) return static_cast<IndexKind>(i);
+    if (auto const kind = index_names.find(name)) return *kind;
     throw UsageError(fmt::format("there is no index '{}'", name), "known are exact and flann", "Choose one of them.");
 }
 

@@ -1,11 +1,8 @@
 #include <lore/knowledge/shaping.h>
 
-#include <lore/core/error.h>
-
-#include <fmt/format.h>
+#include <lore/core/names.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <mutex>
 
@@ -13,19 +10,13 @@ namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> shaping_rule_names{"max", "distinct", "sum", "share"};
+constexpr auto shaping_rule_names = names_for<ShapingRule>("max", "distinct", "sum", "share");
 
 }   // namespace
 
-std::string_view name(ShapingRule rule) { return shaping_rule_names[static_cast<std::size_t>(rule)]; }
+std::string_view name(ShapingRule rule) { return shaping_rule_names[rule]; }
 
-ShapingRule shaping_rule(std::string_view wanted) {
-    auto const found = std::find(shaping_rule_names.begin(), shaping_rule_names.end(), wanted);
-    if (found == shaping_rule_names.end())
-        throw UsageError(fmt::format("'{}' is not a shaping rule", wanted), "known are max, distinct, sum, share",
-                         "Correct the name.");
-    return static_cast<ShapingRule>(found - shaping_rule_names.begin());
-}
+ShapingRule shaping_rule(std::string_view wanted) { return shaping_rule_names.choice(wanted, "a shaping rule"); }
 
 struct Shaper::State {
     State(KnowledgeBase kept, ShapingRule wanted) : base(std::move(kept)), rule(wanted) {}

@@ -2,9 +2,9 @@
 
 #include <lore/core/error.h>
 #include <lore/core/math.h>
+#include <lore/core/names.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> rule_names{"mean", "return", "contrast", "credit"};
+constexpr auto rule_names = names_for<ValueRule>("mean", "return", "contrast", "credit");
 
 double log_odds(Shares const& shares) {
     double const showed = static_cast<double>(shares.showed) + 0.5;
@@ -53,14 +53,12 @@ void check_contrast(Evidence const& evidence, ValueConfig const& config) {
 
 }   // namespace
 
-std::string_view name(ValueRule rule) { return rule_names[static_cast<std::size_t>(rule)]; }
+std::string_view name(ValueRule rule) { return rule_names[rule]; }
 
 ValueRule value_rule(std::string_view wanted) {
-    auto const found = std::find(rule_names.begin(), rule_names.end(), wanted);
-    if (found == rule_names.end())
-        throw UsageError(fmt::format("'{}' is no value rule", wanted),
-                         fmt::format("there are {}", fmt::join(rule_names, ", ")), "Take one of these.");
-    return static_cast<ValueRule>(found - rule_names.begin());
+    if (auto const rule = rule_names.find(wanted)) return *rule;
+    throw UsageError(fmt::format("'{}' is no value rule", wanted), "there are " + rule_names.list(),
+                     "Take one of these.");
 }
 
 double mean_value(double reward_sum, std::uint32_t individuals) { return reward_sum / individuals; }

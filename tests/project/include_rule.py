@@ -3,15 +3,12 @@
 
     tests/project/include_rule.py SOURCE_DIR
 
+src/CMakeLists.txt says the levels; the table in docs/design/architecture.md has the same.
 Prints one line a breach and returns 1, or prints nothing.
 """
 import pathlib
 import re
 import sys
-
-LEVELS = [["core"], ["statistics", "network", "arena"], ["episode"], ["behavior", "knowledge"], ["evaluation"],
-          ["evolution"], ["archive"], ["cluster", "figure"], ["experiment"], ["campaign"], ["report"]]
-LEVEL = {module: level for level, row in enumerate(LEVELS) for module in row}
 
 # The report reads what a campaign has left; the campaign's step "replay" simulates. Neither a file of the report nor a
 # header of its own or the campaign's that it includes may include these.
@@ -34,6 +31,31 @@ DOORS = {
 
 root = pathlib.Path(sys.argv[1])
 breaches = []
+
+
+def levels_of_build():
+    """(level, module) in the order of src/CMakeLists.txt: a level is a line of its list of modules."""
+    text = (root / "src/CMakeLists.txt").read_text()
+    lines = re.search(r"foreach\(module\s(.*?)\)", text, re.DOTALL)[1].strip().splitlines()
+    return [(level, module) for level, line in enumerate(lines) for module in line.split()]
+
+
+def levels_of_page():
+    """The same of the table in docs/design/architecture.md."""
+    rows = re.findall(r"^\| (\d+) \| `(\w+)` \|", (root / "docs/design/architecture.md").read_text(), re.MULTILINE)
+    return [(int(level), module) for level, module in rows]
+
+
+LEVELS = levels_of_build()
+LEVEL = {module: level for level, module in LEVELS}
+if len(LEVEL) < 2 or levels_of_page() != LEVELS:
+    breaches.append("docs/design/architecture.md: its table of levels is not that of src/CMakeLists.txt")
+for folder in sorted({*root.glob("src/*/"), *root.glob("include/lore/*/")}):
+    if folder.is_dir() and folder.name not in LEVEL:
+        breaches.append(f"{folder.relative_to(root)}: src/CMakeLists.txt names no such module")
+if breaches:
+    print("\n".join(breaches))
+    sys.exit(1)
 
 
 def lore_headers(file):

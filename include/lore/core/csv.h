@@ -5,12 +5,26 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace lore {
+
+/// The fields of one line of CSV, one after the other, as they stand between the commas. A view: valid as long as the
+/// line.
+class CsvFields {
+public:
+    explicit CsvFields(std::string_view line) : rest_(line) {}
+    /// The next one; nothing after the last. An empty line has one empty field.
+    std::optional<std::string_view> next();
+
+private:
+    std::string_view rest_;
+    bool ended_ = false;
+};
 
 /// A CSV text with a header and plain fields (no quotes: names and numbers are all that Lore writes), read strictly.
 ///

@@ -36,4 +36,8 @@ std::vector<std::byte> read_bytes(InputFile const&, std::uint64_t limit = most_d
 std::vector<std::byte> read_bytes(std::string const& path, std::uint64_t limit = most_data);
 std::string read_text(std::string const& path, std::uint64_t limit = most_text);
 
+/// The first or the last `bytes` of a regular file, all of it if it has no more. Throws Error where the system fails.
+std::string first_bytes(InputFile const&, std::uint64_t bytes);
+std::string last_bytes(InputFile const&, std::uint64_t bytes);
+
 }   // namespace lore

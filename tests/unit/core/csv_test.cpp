@@ -17,7 +17,20 @@ std::string refusal(auto const& read) {
     return "";
 }
 
+std::vector<std::string> fields_of(std::string_view line) {
+    std::vector<std::string> fields;
+    for (CsvFields rest{line}; auto const field = rest.next();) fields.emplace_back(*field);
+    return fields;
+}
+
 }   // namespace
+
+TEST(CsvFields, are_what_stands_between_the_commas) {
+    using Fields = std::vector<std::string>;
+    EXPECT_EQ(fields_of("a, b,"), (Fields{"a", " b", ""}));
+    EXPECT_EQ(fields_of(""), Fields{""});
+    EXPECT_EQ(fields_of("a"), Fields{"a"});
+}
 
 TEST(CsvTable, gives_fields_by_row_and_column_without_spaces_empty_lines_and_carriage_returns) {
     CsvTable const read = table("name, count\r\n one , 1\r\n\n two,2");

@@ -135,3 +135,14 @@ TEST(InputFile, that_is_to_be_read_twice_is_no_pipe) {
     write(scratch.file("file"), "text");
     EXPECT_EQ(open_regular(scratch.file("file")).size, 4u);
 }
+
+TEST(InputFile, gives_its_first_and_last_bytes_or_all_it_has) {
+    Scratch const scratch;
+    write(scratch.file("ten"), "0123456789");
+    InputFile const ten = open_regular(scratch.file("ten"));
+    EXPECT_EQ(first_bytes(ten, 3), "012");
+    EXPECT_EQ(last_bytes(ten, 3), "789");
+    EXPECT_EQ(first_bytes(ten, 11), "0123456789");
+    EXPECT_EQ(last_bytes(ten, 11), "0123456789");
+    EXPECT_EQ(last_bytes(ten, 0), "");
+}

@@ -9,6 +9,8 @@
 
 #include <filesystem>
 
+#include <sys/stat.h>
+
 using namespace lore;
 
 namespace {
@@ -113,4 +115,10 @@ TEST(ProgressFile, shows_its_last_whole_row_however_long_it_is) {
     }
     std::filesystem::resize_file(scratch.file("p.csv"), writer.sync() - 1);
     EXPECT_EQ(read_last_progress(scratch.file("p.csv")), row_at(98));
+}
+
+TEST(ProgressFile, that_is_a_pipe_is_not_waited_for) {
+    Scratch const scratch;
+    ASSERT_EQ(::mkfifo(scratch.file("p.csv").c_str(), 0600), 0);
+    EXPECT_FALSE(read_last_progress(scratch.file("p.csv")));
 }
