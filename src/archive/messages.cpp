@@ -56,7 +56,7 @@ void get_field(ByteReader& in, std::vector<std::uint16_t>& words) {
     }
 }
 
-/// Other fields of Descriptors: vectors with their count before them, all else as it lies in memory.
+/// Other fields of evaluations: vectors with their count before them, all else as it lies in memory.
 template <class T>
 void put_field(ByteWriter& out, std::vector<T> const& items) {
     out.put_varint(items.size());
@@ -75,20 +75,14 @@ void get_field(ByteReader& in, T& value) {
     value = in.get<T>();
 }
 
-void put_evaluation(ByteWriter& out, Evaluation const& evaluation) {
-    out.put(std::int32_t{evaluation.balls});
-    out.put(evaluation.shaping);
-    put_field(out, evaluation.shown);
-    for_each_field(evaluation.descriptors, [&](auto const& field) { put_field(out, field); });
-}
-
-Evaluation get_evaluation(ByteReader& in) {
-    Evaluation evaluation;
-    evaluation.balls = in.get<std::int32_t>();
-    evaluation.shaping = in.get<double>();
-    get_field(in, evaluation.shown);
-    for_each_field(evaluation.descriptors, [&](auto& field) { get_field(in, field); });
-    return evaluation;
+/// Calls `visit` with every field of an Evaluation and of its Descriptors, in the order in which they are sent.
+template <class AnyEvaluation, class Visit>
+void visit_fields(AnyEvaluation& evaluation, Visit const& visit) {
+    auto& [balls, shaping, shown, descriptors] = evaluation;   // does not compile while one is missing
+    visit(balls);
+    visit(shaping);
+    visit(shown);
+    for_each_field(descriptors, visit);
 }
 
 }   // namespace
@@ -123,7 +117,7 @@ Bytes pack_deliveries(std::span<Delivery const> deliveries) {
     out.put_varint(deliveries.size());
     for (auto const& [ticket, evaluation] : deliveries) {
         out.put_varint(static_cast<std::uint64_t>(ticket));
-        put_evaluation(out, evaluation);
+        visit_fields(evaluation, [&](auto const& field) { put_field(out, field); });
     }
     return out.take();
 }
@@ -133,7 +127,7 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     std::vector<Delivery> deliveries(in.get_count(std::min(most_batch, bytes.size())));
     for (auto& [ticket, evaluation] : deliveries) {
         ticket = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
-        evaluation = get_evaluation(in);
+        visit_fields(evaluation, [&](auto& field) { get_field(in, field); });
     }
     in.expect_end();
     return deliveries;

@@ -3,12 +3,10 @@
 #include <lore/core/error.h>
 #include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
-#include <lore/figure/trajectory.h>
 #include <lore/statistics/quantiles.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -54,6 +52,29 @@ struct Curve {
     std::vector<CurveRow const*> rows;
     double end() const { return rows.back()->generation; }
 };
+
+/// One a treatment that has runs: the source treatment's, then those of the report's order.
+std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
+    // Source runs may be longer than those on the target task, which the figure is about.
+    int last = -1;
+    for (CurveRow const& row : results.curves)
+        if (row.treatment != plan.source.name) last = std::max(last, row.generation);
+    if (last < 0) last = std::numeric_limits<int>::max();
+
+    std::vector<Curve> curves;
+    auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
+        Curve curve{treatment.label, color, dashed, {}};
+        for (CurveRow const& row : results.curves)
+            if (row.treatment == treatment.name && row.generation <= last) curve.rows.push_back(&row);
+        if (curve.rows.empty()) return;
+        curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
+        curves.push_back(std::move(curve));
+    };
+    add(plan.source, source_color, true);
+    for (std::size_t i = 0; i < plan.report_order.size(); ++i)
+        add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
+    return curves;
+}
 
 Paint line_of(Curve const& curve) { return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""}; }
 
@@ -123,29 +144,7 @@ void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double
     }
 }
 
-/// Width or height of an SVG document.
-double size_of(std::string const& svg, std::string_view which) {
-    std::string const key = fmt::format(" {}=\"", which);
-    std::size_t const at = svg.find(key) + key.size();
-    double value = 0;
-    std::from_chars(svg.data() + at, svg.data() + svg.size(), value);
-    return value;
-}
-
 }   // namespace
-
-std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
-    std::string label;
-    while (!names.empty()) {
-        std::string_view const name = names.substr(0, names.find('*'));
-        names.remove_prefix(std::min(names.size(), name.size() + 1));
-        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
-                                          [&](KnowledgePlan const& k) { return k.name == name; });
-        if (!label.empty()) label += " \xc3\x97 ";
-        label += planned == plan.knowledge.end() ? std::string{name} : planned->label;
-    }
-    return label;
-}
 
 std::string_view treatment_color(std::size_t i) {
     static constexpr std::array<std::string_view, 7> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00",
@@ -154,25 +153,7 @@ std::string_view treatment_color(std::size_t i) {
 }
 
 std::string draw_curves(CampaignPlan const& plan, Results const& results) {
-    // Source runs may be longer than those on the target task, which the figure is about.
-    int last = -1;
-    for (CurveRow const& row : results.curves)
-        if (row.treatment != plan.source.name) last = std::max(last, row.generation);
-    if (last < 0) last = std::numeric_limits<int>::max();
-
-    std::vector<Curve> curves;
-    auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
-        Curve curve{treatment.label, color, dashed, {}};
-        for (CurveRow const& row : results.curves)
-            if (row.treatment == treatment.name && row.generation <= last) curve.rows.push_back(&row);
-        if (curve.rows.empty()) return;
-        curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
-        curves.push_back(std::move(curve));
-    };
-    add(plan.source, source_color, true);
-    for (std::size_t i = 0; i < plan.report_order.size(); ++i)
-        add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
-
+    std::vector<Curve> const curves = curves_of(plan, results);
     Frame frame{64, 640, 24, 420, 1, 1};
     for (Curve const& curve : curves) {
         frame.x_most = std::max(frame.x_most, curve.end());
@@ -267,66 +248,6 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     if (boxes.empty())
         svg.text({(frame.left + frame.right) / 2, 200}, "no finished run yet", {.anchor = Anchor::middle});
     return std::move(svg).finish();
-}
-
-std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
-    if (results.replays.empty()) return "";
-    Replay const& replay = results.replays.front();
-    std::vector<Pose> poses;
-    std::vector<std::uint8_t> carrying;
-    for (ReplayStep const& step : replay.steps) {
-        poses.push_back({step.x, step.y, step.theta});
-        carrying.push_back(step.carrying ? 1 : 0);
-    }
-
-    std::vector<std::string> panels;
-    for (PanelValues const& panel : results.panels) {
-        if (panel.figure != figure || panel.values.empty()) continue;
-        bool const product = panel.knowledge.find('*') != std::string::npos;
-        TrajectoryPicture picture;
-        picture.title =
-            fmt::format("{}{}",
-                        figure == "figure5" ? fmt::format("({:c}) values from ",
-                                                          static_cast<char>('a' + static_cast<int>(panels.size())))
-                                            : "product of the values from ",
-                        knowledge_label(plan, panel.knowledge));
-        picture.poses = poses;
-        picture.carrying = carrying;
-        picture.window_length = static_cast<int>((poses.size() + panel.values.size() - 1) / panel.values.size());
-        picture.values = panel.values;
-        // A window without value: -1 from a single base, 0 where a product lacks a factor.
-        for (double& value : picture.values)
-            if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
-        picture.lowest = 0;
-        picture.highest = *std::max_element(panel.values.begin(), panel.values.end());
-        if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
-        picture.not_found = product ? 0 : -1;
-        picture.value_label = product ? "product of the values" : "value (balls)";
-        panels.push_back(draw_trajectory(replay.scene, picture));
-    }
-    if (panels.size() < 2) return panels.empty() ? "" : panels.front();
-
-    double width = 0, height = 0;
-    std::string body;
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-        std::string const panel = with_own_ids(panels[i], fmt::format("panel{}-", i + 1));
-        width = std::max(width, size_of(panel, "width"));
-        // Nested documents are placed by their own x and y.
-        std::size_t const start = panel.find("<svg") + 4;
-        body += fmt::format("<svg x=\"0\" y=\"{}\"{}", height, panel.substr(start));
-        height += size_of(panel, "height");
-    }
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n",
-        width, height, body);
-}
-
-std::string with_own_ids(std::string svg, std::string_view prefix) {
-    for (std::string_view const before : {" id=\"", "url(#", "href=\"#", "aria-labelledby=\""}) {
-        for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + before.size()))
-            svg.insert(at + before.size(), prefix);
-    }
-    return svg;
 }
 
 }   // namespace lore

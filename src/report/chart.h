@@ -15,15 +15,6 @@ std::string draw_curves(CampaignPlan const&, Results const&);
 /// paper's mark over each pair with p < 1e-2.
 std::string draw_boxplots(CampaignPlan const&, Results const&, std::vector<Comparison> const&);
 
-/// Figure 5 or 6: the source run's trajectory, one panel for each of the figure's rows in values.csv. "" without any.
-std::string draw_panels(CampaignPlan const&, Results const&, std::string_view figure);
-
-/// The labels of knowledge bases whose names are joined by '*', joined by a multiplication sign.
-std::string knowledge_label(CampaignPlan const&, std::string_view names);
-
-/// The document with `prefix` before every id and every reference to one, so that several can live in one page.
-std::string with_own_ids(std::string svg, std::string_view prefix);
-
 /// Color of the i-th target treatment: Okabe and Ito's palette (2008), told apart by color-blind readers.
 std::string_view treatment_color(std::size_t i);
 

@@ -1,6 +1,6 @@
 #include "page.h"
 
-#include "chart.h"
+#include "panels.h"
 #include "html.h"
 #include "page_parts.h"
 #include "report_assets.h"

@@ -1,4 +1,4 @@
-#include "chart.h"
+#include "panels.h"
 #include "html.h"
 #include "page_parts.h"
 

@@ -1,6 +1,7 @@
 #include <lore/report/report.h>
 
 #include "chart.h"
+#include "panels.h"
 #include "page.h"
 
 #include <lore/archive/atomic_file.h>

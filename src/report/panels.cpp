@@ -1,0 +1,106 @@
+#include "panels.h"
+
+#include <lore/figure/trajectory.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// Width or height of an SVG document.
+double size_of(std::string const& svg, std::string_view which) {
+    std::string const key = fmt::format(" {}=\"", which);
+    std::size_t const at = svg.find(key) + key.size();
+    double value = 0;
+    std::from_chars(svg.data() + at, svg.data() + svg.size(), value);
+    return value;
+}
+
+/// Panel number `place` of the figure, without the trajectory itself.
+TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel, std::size_t place) {
+    bool const product = panel.knowledge.find('*') != std::string::npos;
+    std::string const before =
+        panel.figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(place)))
+                                  : "product of the values from ";
+    TrajectoryPicture picture;
+    picture.title = before + knowledge_label(plan, panel.knowledge);
+    picture.values = panel.values;
+    // A window without value: -1 from a single base, 0 where a product lacks a factor.
+    for (double& value : picture.values)
+        if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
+    picture.lowest = 0;
+    picture.highest = *std::max_element(panel.values.begin(), panel.values.end());
+    if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
+    picture.not_found = product ? 0 : -1;
+    picture.value_label = product ? "product of the values" : "value (balls)";
+    return picture;
+}
+
+/// One document with the panels below each other.
+std::string stacked(std::vector<std::string> const& panels) {
+    double width = 0, height = 0;
+    std::string body;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        std::string const panel = with_own_ids(panels[i], fmt::format("panel{}-", i + 1));
+        width = std::max(width, size_of(panel, "width"));
+        // Nested documents are placed by their own x and y.
+        std::size_t const start = panel.find("<svg") + 4;
+        body += fmt::format("<svg x=\"0\" y=\"{}\"{}", height, panel.substr(start));
+        height += size_of(panel, "height");
+    }
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n",
+        width, height, body);
+}
+
+}   // namespace
+
+std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
+    std::string label;
+    while (!names.empty()) {
+        std::string_view const name = names.substr(0, names.find('*'));
+        names.remove_prefix(std::min(names.size(), name.size() + 1));
+        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                          [&](KnowledgePlan const& k) { return k.name == name; });
+        if (!label.empty()) label += " \xc3\x97 ";
+        label += planned == plan.knowledge.end() ? std::string{name} : planned->label;
+    }
+    return label;
+}
+
+std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
+    if (results.replays.empty()) return "";
+    Replay const& replay = results.replays.front();
+    std::vector<Pose> poses;
+    std::vector<std::uint8_t> carrying;
+    for (ReplayStep const& step : replay.steps) {
+        poses.push_back({step.x, step.y, step.theta});
+        carrying.push_back(step.carrying ? 1 : 0);
+    }
+    std::vector<std::string> panels;
+    for (PanelValues const& panel : results.panels) {
+        if (panel.figure != figure || panel.values.empty()) continue;
+        TrajectoryPicture picture = picture_of(plan, panel, panels.size());
+        picture.poses = poses;
+        picture.carrying = carrying;
+        picture.window_length = static_cast<int>((poses.size() + panel.values.size() - 1) / panel.values.size());
+        panels.push_back(draw_trajectory(replay.scene, picture));
+    }
+    if (panels.size() < 2) return panels.empty() ? "" : panels.front();
+    return stacked(panels);
+}
+
+std::string with_own_ids(std::string svg, std::string_view prefix) {
+    for (std::string_view const before : {" id=\"", "url(#", "href=\"#", "aria-labelledby=\""}) {
+        for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + before.size()))
+            svg.insert(at + before.size(), prefix);
+    }
+    return svg;
+}
+
+}   // namespace lore
