@@ -75,7 +75,7 @@ Population get_population(InArchive& archive) {
     population.generation = generation;
     population.distance_kind = static_cast<DistanceKind>(kind);
     population.members.resize(get_count(archive, least_bytes_a_member));
-    if (population.members.empty()) archive.fail("nobody is in the population");
+    if (population.members.empty()) archive.fail("the population is empty");
     for (Individual& member : population.members) {
         std::uint32_t place = 0;
         std::int32_t objectives = 0;
@@ -89,8 +89,8 @@ Population get_population(InArchive& archive) {
             if (!std::isfinite(value)) archive.fail("an objective is not finite");
         member.birth = births[place];
         member.descriptors = std::move(descriptors);
-        // Distances compare ball by ball, and sums of them decide who survives.
-        if (member.descriptors->balls.size() != population.members.front().descriptors->balls.size())
+        // Distances compare ball by ball, and their sums decide which individuals survive.
+        if (member.descriptors->ball_positions.size() != population.members.front().descriptors->ball_positions.size())
             archive.fail("members saw different numbers of balls");
         if (!is_possible(*member.descriptors)) archive.fail("a descriptor that no evaluation gives");
         member.objectives.count = objectives;

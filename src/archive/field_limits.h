@@ -7,8 +7,8 @@
 
 namespace lore {
 
-/// Most items that a vector among the fields of Descriptors may hold, by what it holds. Whoever reads one also checks
-/// that so many can follow.
+/// Most items that a vector among the fields of Descriptors may hold, by what it holds. Its reader also checks that
+/// so many can follow.
 template <class T>
 inline constexpr std::size_t most_items = SIZE_MAX;
 template <>

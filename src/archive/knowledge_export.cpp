@@ -15,20 +15,6 @@ namespace lore {
 
 namespace {
 
-/// The channels of one step, in their order.
-std::array<float, channel_count> channels_at(Window const& window, std::size_t step) {
-    std::array<float, channel_count> channels{};
-    for (std::size_t i = 0; i < binary_channels.size(); ++i)
-        channels[static_cast<std::size_t>(binary_channels[i])] = static_cast<float>(window.bits[step] >> i & 1);
-    for (std::size_t i = 0; i < continuous_channels.size(); ++i)
-        channels[static_cast<std::size_t>(continuous_channels[i])] = window.values[step * continuous_count + i];
-    return channels;
-}
-
-}   // namespace
-
-namespace {
-
 void append_evidence_names(std::string& csv, Evidence const& evidence) {
     if (evidence.has_returns()) csv += ",showings";
     for (double const gamma : evidence.gammas) fmt::format_to(std::back_inserter(csv), ",return_sum_{}", gamma);
@@ -132,7 +118,7 @@ Trace read_windows(std::string const& path, int window_length) {
                             "Correct it.");
             if (value == 1) word |= static_cast<std::uint16_t>(1u << i);
         }
-        trace.bits.push_back(word);
+        trace.channel_bits.push_back(word);
         for (int const channel : continuous_channels) trace.values.push_back(channels[channel]);
     }
     return trace;

@@ -89,7 +89,7 @@ std::string trace_csv(std::vector<StepRecord> const& rows) {
         fmt::format_to(out, "{},{},{},{}", row.step, row.pose.x, row.pose.y, row.pose.theta);
         for (float const sensor : row.sensors) fmt::format_to(out, ",{}", sensor);
         for (float const effector : row.effectors) fmt::format_to(out, ",{}", effector);
-        fmt::format_to(out, ",{:d},{:d},{},{},{:d},{},{},{},{}\n", row.carrying, row.door_open, row.balls,
+        fmt::format_to(out, ",{:d},{:d},{},{},{:d},{},{},{},{}\n", row.carrying, row.door_open, row.balls_mask,
                        row.collected, row.switch_lit, row.switch_timer, row.next.x, row.next.y, row.next.theta);
     }
     return text;
@@ -99,7 +99,7 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
     CsvTable const csv = read_table(path);
     std::size_t const step = csv.column("step"), x = csv.column("x"), y = csv.column("y"), theta = csv.column("theta");
     std::size_t const carrying = csv.column("carrying"), door_open = csv.column("door_open"),
-                      balls = csv.column("balls_mask"), collected = csv.column("collected"),
+                      balls_mask = csv.column("balls_mask"), collected = csv.column("collected"),
                       switch_on = csv.column("switch_on"), switch_timer = csv.column("switch_timer");
     std::size_t const x_next = csv.column("x_next"), y_next = csv.column("y_next"),
                       theta_next = csv.column("theta_next");
@@ -119,7 +119,7 @@ std::vector<StepRecord> read_trace_csv(std::string const& path, Arena const& are
         for (std::size_t i = 0; i < effectors.size(); ++i) row.effectors[i] = csv.number(r, effectors[i], 0.0f, 1.0f);
         row.carrying = csv.number(r, carrying, 0, 1) != 0;
         row.door_open = csv.number(r, door_open, 0, 1) != 0;
-        row.balls = static_cast<std::uint16_t>(csv.number(r, balls, 0, all_balls));
+        row.balls_mask = static_cast<std::uint16_t>(csv.number(r, balls_mask, 0, all_balls));
         row.collected = csv.number(r, collected, 0, largest_count);
         row.switch_lit = csv.number(r, switch_on, 0, 1) != 0;
         row.switch_timer = csv.number(r, switch_timer, 0, int{std::numeric_limits<std::int16_t>::max()});

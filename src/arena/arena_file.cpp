@@ -111,12 +111,12 @@ std::size_t read_word(TomlTable const& table, std::string_view key, std::span<st
 }
 
 TaskRules read_task(TomlTable const& table, std::string const& name) {
-    static constexpr std::string_view doors[] = {"opens_with_switch", "absent"};
-    static constexpr std::string_view balls[] = {"all_at_start", "one_per_press"};
+    static constexpr std::string_view door_rules[] = {"opens_with_switch", "absent"};
+    static constexpr std::string_view ball_rules[] = {"all_at_start", "one_per_press"};
     TaskRules task;
     task.name = name;
-    task.door = static_cast<DoorRule>(read_word(table, "door", doors));
-    task.balls = static_cast<BallRule>(read_word(table, "balls", balls));
+    task.door = static_cast<DoorRule>(read_word(table, "door", door_rules));
+    task.ball_rule = static_cast<BallRule>(read_word(table, "balls", ball_rules));
     task.switch_pause =
         static_cast<int>(table.integer("switch_pause", 0, static_cast<std::int64_t>(largest_pause)).value_or(0));
     task.ball_positions = read_points(table, "positions", most_balls);

@@ -30,9 +30,9 @@ void release(Arena const& arena, Pose const& pose, WorldState& world) {
 
 /// The first ball in index order that lies within reach, or -1.
 int ball_within_reach(Arena const& arena, Pose const& pose, WorldState const& world) {
-    std::vector<Point> const& balls = arena.task.ball_positions;
-    for (std::size_t i = 0; i < balls.size(); ++i)
-        if ((world.balls >> i & 1u) != 0 && squared_distance(pose, balls[i]) < arena.geometry->reach_squared)
+    std::vector<Point> const& positions = arena.task.ball_positions;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        if ((world.balls_mask >> i & 1u) != 0 && squared_distance(pose, positions[i]) < arena.geometry->reach_squared)
             return static_cast<int>(i);
     return -1;
 }
@@ -41,10 +41,10 @@ void press_switch(Arena const& arena, WorldState& world) {
     world.switch_lit = false;
     world.switch_timer = static_cast<std::int16_t>(arena.task.switch_pause);
     if (arena.task.door == DoorRule::opens_with_switch) world.door_open = true;
-    if (arena.task.balls == BallRule::one_per_press) {
-        std::uint32_t const absent = ~std::uint32_t{world.balls} & ((1u << arena.task.ball_positions.size()) - 1u);
-        world.balls =
-            static_cast<std::uint16_t>(world.balls | (absent & (~absent + 1u)));   // the lowest that is absent
+    if (arena.task.ball_rule == BallRule::one_per_press) {
+        std::uint32_t const absent = ~std::uint32_t{world.balls_mask} & ((1u << arena.task.ball_positions.size()) - 1u);
+        world.balls_mask =
+            static_cast<std::uint16_t>(world.balls_mask | (absent & (~absent + 1u)));   // the lowest that is absent
     }
 }
 
@@ -55,10 +55,10 @@ RobotState start_robot(Arena const& arena) { return {arena.start, false, false};
 WorldState start_world(Arena const& arena) {
     WorldState world;
     world.door_open = arena.doors.empty();
-    if (arena.task.balls == BallRule::all_at_start) {
-        std::vector<Point> const& balls = arena.task.ball_positions;
-        world.balls = static_cast<std::uint16_t>((1u << balls.size()) - 1u);
-        std::copy(balls.begin(), balls.end(), world.released.begin());
+    if (arena.task.ball_rule == BallRule::all_at_start) {
+        std::vector<Point> const& positions = arena.task.ball_positions;
+        world.balls_mask = static_cast<std::uint16_t>((1u << positions.size()) - 1u);
+        std::copy(positions.begin(), positions.end(), world.released.begin());
     }
     return world;
 }
@@ -72,7 +72,7 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
                                       g.inverse_range);
     };
 
-    std::uint32_t const shining = world.balls | g.basket_mask | (world.switch_lit ? g.switch_mask : 0u);
+    std::uint32_t const shining = world.balls_mask | g.basket_mask | (world.switch_lit ? g.switch_mask : 0u);
     std::uint32_t right = 0, left = 0;   // the lights in the field of view of each side
     for (std::size_t i = 0; i < g.lights.size(); ++i) {
         float const vx = g.lights[i].x - x, vy = g.lights[i].y - y;
@@ -83,11 +83,12 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     right &= visible;
     left &= visible;
     auto const on = [](bool condition) { return condition ? 1.0f : 0.0f; };
-    std::uint32_t const balls = ~(g.basket_mask | g.switch_mask);
-    auto const sensors = std::to_array<float>(
-        {range(look.right), range(look.left), range(look.ahead), on((right & balls) != 0), on((left & balls) != 0),
-         on((right & g.basket_mask) != 0), on((left & g.basket_mask) != 0), on((right & g.switch_mask) != 0),
-         on((left & g.switch_mask) != 0), on(robot.bumper_right), on(robot.bumper_left), on(world.carrying())});
+    std::uint32_t const ball_lights = ~(g.basket_mask | g.switch_mask);
+    auto const sensors = std::to_array<float>({range(look.right), range(look.left), range(look.ahead),
+                                               on((right & ball_lights) != 0), on((left & ball_lights) != 0),
+                                               on((right & g.basket_mask) != 0), on((left & g.basket_mask) != 0),
+                                               on((right & g.switch_mask) != 0), on((left & g.switch_mask) != 0),
+                                               on(robot.bumper_right), on(robot.bumper_left), on(world.carrying())});
     static_assert(sensors.size() == sensor_count, "a value for every sensor, in the order of Channel");
     return sensors;
 }
@@ -106,7 +107,7 @@ void act(Arena const& arena, Pose const& pose, Effectors const& effectors, World
     if (!collecting || world.carrying()) return;
     if (int const ball = ball_within_reach(arena, pose, world); ball >= 0) {
         world.carried = static_cast<std::int8_t>(ball);
-        world.balls = static_cast<std::uint16_t>(world.balls & ~(1u << ball));
+        world.balls_mask = static_cast<std::uint16_t>(world.balls_mask & ~(1u << ball));
     } else if (world.switch_lit && squared_distance(pose, arena.switch_position) < arena.geometry->reach_squared) {
         press_switch(arena, world);
     }

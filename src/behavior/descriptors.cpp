@@ -33,7 +33,7 @@ double entropy(std::array<std::uint32_t, bins> const& counts, int steps) {
 ChannelHistograms histograms_of(Trace const& trace) {
     ChannelHistograms histograms;
     for (int step = 0; step < trace.steps(); ++step) {
-        for (int c = 0; c < binary_count; ++c) histograms.ones[c] += (trace.bits[step] >> c) & 1u;
+        for (int c = 0; c < binary_count; ++c) histograms.ones[c] += (trace.channel_bits[step] >> c) & 1u;
         for (int c = 0; c < continuous_count; ++c) {
             float const value = trace.values[static_cast<std::size_t>(step) * continuous_count + c];
             ++histograms.continuous[c][entropy_bin(value)];
@@ -65,8 +65,9 @@ std::array<double, channel_count> entropies(ChannelHistograms const& histograms,
 Descriptors describe(Arena const& arena, Trace const& trace) {
     Descriptors d;
     auto const& released = trace.final_world.released;
-    d.balls.assign(released.begin(), released.begin() + static_cast<std::ptrdiff_t>(arena.task.ball_positions.size()));
-    d.bits = trace.bits;
+    d.ball_positions.assign(released.begin(),
+                            released.begin() + static_cast<std::ptrdiff_t>(arena.task.ball_positions.size()));
+    d.channel_bits = trace.channel_bits;
     for (int step = 0; step < trace.steps(); step += steps_per_tile_sample)
         d.path.push_back(tile_of(arena, trace.poses[step].x, trace.poses[step].y));
     d.entropies = entropies(histograms_of(trace), trace.steps());

@@ -19,11 +19,11 @@ int substitution_cost(Tile a, Tile b) { return std::abs(a.x - b.x) + std::abs(a.
 }   // namespace
 
 double adhoc_distance(Descriptors const& a, Descriptors const& b) {
-    assert(a.balls.size() == b.balls.size());
+    assert(a.ball_positions.size() == b.ball_positions.size());
     double sum = 0;
-    for (std::size_t ball = 0; ball < a.balls.size(); ++ball) {
-        double const dx = static_cast<double>(a.balls[ball].x) - b.balls[ball].x;
-        double const dy = static_cast<double>(a.balls[ball].y) - b.balls[ball].y;
+    for (std::size_t ball = 0; ball < a.ball_positions.size(); ++ball) {
+        double const dx = static_cast<double>(a.ball_positions[ball].x) - b.ball_positions[ball].x;
+        double const dy = static_cast<double>(a.ball_positions[ball].y) - b.ball_positions[ball].y;
         sum += dx * dx;
         sum += dy * dy;
     }
@@ -31,12 +31,13 @@ double adhoc_distance(Descriptors const& a, Descriptors const& b) {
 }
 
 double hamming_distance(Descriptors const& a, Descriptors const& b) {
-    std::size_t const shorter = std::min(a.bits.size(), b.bits.size());
-    std::size_t const longer = std::max(a.bits.size(), b.bits.size());
+    std::size_t const shorter = std::min(a.channel_bits.size(), b.channel_bits.size());
+    std::size_t const longer = std::max(a.channel_bits.size(), b.channel_bits.size());
     if (longer == 0) return 0;
     std::size_t differing = (longer - shorter) * bits_per_step;
     for (std::size_t step = 0; step < shorter; ++step)
-        differing += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(a.bits[step] ^ b.bits[step])));
+        differing +=
+            static_cast<std::size_t>(std::popcount(static_cast<unsigned>(a.channel_bits[step] ^ b.channel_bits[step])));
     return static_cast<double>(differing) / static_cast<double>(longer * bits_per_step);
 }
 

@@ -35,13 +35,13 @@ private:
 
 void measure_adhoc_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
-    std::size_t const balls = pool[0]->balls.size();
-    Points points(last, static_cast<int>(2 * balls));
+    std::size_t const ball_count = pool[0]->ball_positions.size();
+    Points points(last, static_cast<int>(2 * ball_count));
     for (int i = 0; i < last; ++i) {
-        assert(pool[i]->balls.size() == balls);
-        for (std::size_t ball = 0; ball < balls; ++ball) {
-            points.coordinate(i, static_cast<int>(2 * ball)) = pool[i]->balls[ball].x;
-            points.coordinate(i, static_cast<int>(2 * ball + 1)) = pool[i]->balls[ball].y;
+        assert(pool[i]->ball_positions.size() == ball_count);
+        for (std::size_t ball = 0; ball < ball_count; ++ball) {
+            points.coordinate(i, static_cast<int>(2 * ball)) = pool[i]->ball_positions[ball].x;
+            points.coordinate(i, static_cast<int>(2 * ball + 1)) = pool[i]->ball_positions[ball].y;
         }
     }
     points.measure(first, matrix);

@@ -11,7 +11,7 @@ namespace {
 using Plane = std::array<std::uint64_t, words_per_plane>;
 
 /// The different planes among those of one channel and stretch of time. In a population there are few: a lamp that
-/// nobody sees, a ball that everybody carries, a child that has not yet left its parent's way. Measured on evolved
+/// no robot sees, a ball that all robots carry, a child that has not yet left its parent's way. Measured on evolved
 /// populations, only 7 to 15 % of the pairs of planes are left to count.
 class PlaneClasses {
 public:
@@ -73,7 +73,7 @@ private:
         std::size_t const members = pool_.size();
         Plane* const planes = reinterpret_cast<Plane*>(planes_.data());   // [channel][member]
         for (std::size_t member = 0; member < members; ++member) {
-            std::vector<std::uint16_t> const& bits = pool_[member]->bits;
+            std::vector<std::uint16_t> const& bits = pool_[member]->channel_bits;
             std::size_t const lived = std::min(start, bits.size()), left = bits.size() - lived;
             std::uint16_t const* steps = bits.data() + lived;
             if (left < steps_per_plane) {
@@ -125,9 +125,9 @@ private:
 
 /// Set bits before each step, and among all: a sum that every pair of evaluations of different lengths asks for.
 std::vector<std::uint32_t> ones_before(Descriptors const& d) {
-    std::vector<std::uint32_t> ones(d.bits.size() + 1);
-    for (std::size_t step = 0; step < d.bits.size(); ++step)
-        ones[step + 1] = ones[step] + static_cast<std::uint32_t>(std::popcount(d.bits[step]));
+    std::vector<std::uint32_t> ones(d.channel_bits.size() + 1);
+    for (std::size_t step = 0; step < d.channel_bits.size(); ++step)
+        ones[step + 1] = ones[step] + static_cast<std::uint32_t>(std::popcount(d.channel_bits[step]));
     return ones;
 }
 
@@ -137,14 +137,15 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
     if (first >= last) return;
     pool = pool.first(static_cast<std::size_t>(last));
     std::size_t longest = 0;
-    for (Descriptors const* d : pool) longest = std::max(longest, d->bits.size());
+    for (Descriptors const* d : pool) longest = std::max(longest, d->channel_bits.size());
     DifferenceCounts const differences(pool, first, longest);
-    std::vector<std::vector<std::uint32_t>> ones(pool.size());   // only of those who outlive somebody
+    std::vector<std::vector<std::uint32_t>> ones(pool.size());   // only of members that live longer than another
     for (int i = first; i < last; ++i) {
         for (int j = 0; j < i; ++j) {
-            bool const row_is_longer = pool[i]->bits.size() >= pool[j]->bits.size();
+            bool const row_is_longer = pool[i]->channel_bits.size() >= pool[j]->channel_bits.size();
             int const outliving = row_is_longer ? i : j;
-            std::size_t const length = pool[outliving]->bits.size(), common = pool[row_is_longer ? j : i]->bits.size();
+            std::size_t const length = pool[outliving]->channel_bits.size(),
+                              common = pool[row_is_longer ? j : i]->channel_bits.size();
             std::size_t count = differences(i, j);
             // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
             if (length != common) {

@@ -22,7 +22,7 @@ constexpr char rule[] =
     "level wished; ties: the lowest seed; runs that the campaign names are taken first";
 
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
-    return {knowledge.name, knowledge.balls, run.run, run.seed, run.balls};
+    return {knowledge.name, knowledge.wished_balls, run.run, run.seed, run.balls};
 }
 
 }   // namespace
@@ -79,8 +79,8 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
     for (KnowledgePlan const* wish : wishes) {
         if (wish->run != 0) continue;
         auto const nearest = std::min_element(free.begin(), free.end(), [&](SourceRun const& a, SourceRun const& b) {
-            return std::tuple{std::abs(a.balls - wish->balls), a.seed} <
-                   std::tuple{std::abs(b.balls - wish->balls), b.seed};
+            return std::tuple{std::abs(a.balls - wish->wished_balls), a.seed} <
+                   std::tuple{std::abs(b.balls - wish->wished_balls), b.seed};
         });
         if (nearest == free.end())
             throw Error(

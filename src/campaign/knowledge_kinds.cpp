@@ -41,7 +41,7 @@ void read_build(TomlTable const& table, KnowledgePlan& plan) {
 }
 
 void read_balls(TomlTable const& table, KnowledgePlan& plan) {
-    plan.balls = table.required_number("balls", 0, 1e6);
+    plan.wished_balls = table.required_number("balls", 0, 1e6);
     read_build(table, plan);
 }
 
@@ -66,7 +66,7 @@ void read_reduction(TomlTable const& table, KnowledgePlan& plan) {
 
 Words after_choice(KnowledgePlan const&, std::vector<Step>&) { return {"choose"}; }
 
-/// The source run is made once more, keeping everybody.
+/// The source run is made once more and keeps all individuals.
 Words after_archive(KnowledgePlan const& knowledge, std::vector<Step>& steps) {
     std::string const archive = archive_step(knowledge.name);
     steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});

@@ -37,7 +37,7 @@ Json json_of(Scene const& scene) {
             {"height", number(scene.height)},
             {"walls", list(scene.walls, corners)},
             {"doors", list(scene.doors, corners)},
-            {"balls", list(scene.balls, pair)},
+            {"balls", list(scene.ball_positions, pair)},
             {"balls_at_start", scene.balls_at_start},
             {"basket", {number(scene.basket_center.x), number(scene.basket_center.y), number(scene.basket_radius)}},
             {"basket_lights", list(scene.basket_lights, pair)},
@@ -54,7 +54,7 @@ Scene read_scene(Json const& json) {
     scene.height = json.at("height");
     for (Json const& wall : json.at("walls")) scene.walls.push_back(rect_of(wall));
     for (Json const& door : json.at("doors")) scene.doors.push_back(rect_of(door));
-    for (Json const& ball : json.at("balls")) scene.balls.push_back(point_of(ball));
+    for (Json const& ball : json.at("balls")) scene.ball_positions.push_back(point_of(ball));
     scene.balls_at_start = json.at("balls_at_start");
     scene.basket_center = point_of(json.at("basket"));
     scene.basket_radius = json.at("basket").at(2);

@@ -77,7 +77,7 @@ Replay replay_of(RunDirectory const& run, std::string const& step, std::string s
     WorldState before = start_world(run.arena);
     run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
         replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open,
-                                before.switch_lit, before.balls, before.collected});
+                                before.switch_lit, before.balls_mask, before.collected});
         before = view.world;
     });
     return replay;

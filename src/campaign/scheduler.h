@@ -13,7 +13,8 @@
 
 namespace lore {
 
-/// Decides which step comes next, starts its program, and judges how it ended. Never waits: whoever calls it does.
+/// Decides which step comes next, starts its program, and judges how it ended. Never waits; the caller waits between
+/// its calls.
 class Scheduler {
 public:
     /// Throws UsageError if `options.only` names a step that does not exist. The references must outlive it.

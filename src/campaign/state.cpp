@@ -60,8 +60,8 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     };
     std::string const where = fmt::format("at generation {} of {}", state.generation, state.generations);
 
-    // What is done is done, whoever holds the lock: a child that was just forked seems to, until it becomes its
-    // program.
+    // A finished run is done even if its lock is held: a child that was just forked holds all locks until it becomes
+    // its program.
     std::optional<Manifest> manifest;
     if (fs::exists(in(run, run_file::manifest))) {
         try {

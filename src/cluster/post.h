@@ -48,7 +48,7 @@ public:
 
     /// Returns at once; the bytes are kept until they have gone.
     void send(int to, MessageKind, int unit, std::span<std::byte const> payload);
-    /// A message of one of these kinds, from anybody, if one is there. Throws Error if it is not one of Lore's.
+    /// A message of one of these kinds, from any rank, if one is there. Throws Error if it is not one of Lore's.
     std::optional<Message> receive(std::span<MessageKind const>);
     /// Waits for one, giving the processor to others when it takes long.
     Message await(std::span<MessageKind const>);

@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds patience_for_a_writer{5000};
 constexpr milliseconds longest_silence{60000};
-constexpr std::size_t first_piece = 4096;   ///< read of what does not say its length
+constexpr std::size_t first_piece = 4096;   ///< the first read of a stream
 
 /// A UsageError where another name would have been right; everything else is the system's failure.
 [[noreturn]] void fail_to_open(std::string const& path, int error_number) {
@@ -80,7 +80,7 @@ Buffer read_whole(InputFile const& file, std::uint64_t limit) {
     if (!file.regular) limit = std::min(limit, most_of_stream);
     if (file.size > limit) refuse(limit);
     // Before its first writer a pipe seems to be at its end.
-    bool const nobody = !file.regular && !has_something(file.descriptor.get(), patience_for_a_writer);
+    bool const no_writer = !file.regular && !has_something(file.descriptor.get(), patience_for_a_writer);
     Buffer content;
     content.resize(static_cast<std::size_t>(file.size) + 1);   // one more, to see the end
     std::size_t filled = 0;
@@ -88,7 +88,7 @@ Buffer read_whole(InputFile const& file, std::uint64_t limit) {
         if (filled == content.size()) content.resize(std::max(first_piece, content.size() * 2));
         std::size_t const got =
             read_piece(file, reinterpret_cast<std::byte*>(content.data()) + filled, content.size() - filled);
-        if (got == 0 && filled == 0 && nobody) refuse_silence(file.path, patience_for_a_writer);
+        if (got == 0 && filled == 0 && no_writer) refuse_silence(file.path, patience_for_a_writer);
         if (got == 0) break;
         filled += got;
         if (filled > limit) refuse(limit);

@@ -33,7 +33,7 @@ float channel_value(Sensors const& sensors, Effectors const& effectors, int chan
 
 }   // namespace
 
-std::uint16_t trace_bits(Sensors const& sensors, Effectors const& effectors) {
+std::uint16_t channel_bits(Sensors const& sensors, Effectors const& effectors) {
     auto const channel = [&](int c) { return channel_value(sensors, effectors, c); };
     unsigned bits = 0, bit = 0;
     for (int const c : binary_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
@@ -49,11 +49,11 @@ WorldState run_episode(Arena const& arena, Network const& network, EpisodeConfig
 Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig const& config) {
     Trace trace;
     auto const steps = static_cast<std::size_t>(config.steps);
-    trace.bits.reserve(steps);
+    trace.channel_bits.reserve(steps);
     trace.poses.reserve(steps);
     trace.values.reserve(steps * continuous_count);
     trace.final_world = simulate(arena, network, config, [&](StepView const& view) {
-        trace.bits.push_back(trace_bits(view.sensors, view.effectors));
+        trace.channel_bits.push_back(channel_bits(view.sensors, view.effectors));
         trace.poses.push_back(view.pose);
         if (view.world.collected > static_cast<int>(trace.deliveries.size())) trace.deliveries.push_back(view.step);
         for (int const c : continuous_channels) trace.values.push_back(channel_value(view.sensors, view.effectors, c));

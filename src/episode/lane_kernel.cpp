@@ -182,7 +182,7 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     LaneArena const& arena = work.arena;
     F const x = lanes::load<F>(work.x + at), y = lanes::load<F>(work.y + at);
     I const open = lanes::load<I>(work.door_open + at);
-    I const shining = lanes::load<I>(work.balls + at) | static_cast<std::int32_t>(arena.basket_mask) |
+    I const shining = lanes::load<I>(work.balls_mask + at) | static_cast<std::int32_t>(arena.basket_mask) |
                       (lanes::load<I>(work.switch_lit + at) & static_cast<std::int32_t>(arena.switch_mask));
     Known const known = look_up(arena, x, y, open);
     mechanics::Directions<F> const look = mechanics::directions(

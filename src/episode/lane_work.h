@@ -88,7 +88,7 @@ struct alignas(64) LaneWork {
     float x[lane_slots], y[lane_slots], theta[lane_slots];
     std::int32_t bumper_right[lane_slots], bumper_left[lane_slots];   ///< masks: 0 or -1, likewise below
     std::int32_t carrying[lane_slots], door_open[lane_slots], switch_lit[lane_slots];
-    std::int32_t balls[lane_slots];   ///< WorldState::balls
+    std::int32_t balls_mask[lane_slots];   ///< WorldState::balls_mask
     std::int32_t switch_timer[lane_slots];
 
     /// Within a step: heading, the word so far, whether something can be taken or pressed, walls that may be touched.
@@ -108,7 +108,7 @@ struct alignas(64) LaneWork {
     float* trail_y;
 
     /// Called where a lane's robot picks up, releases or presses: applies the rules to the lane's world and writes back
-    /// carrying, door_open, switch_lit, balls and switch_timer. Those are as before the step's action.
+    /// carrying, door_open, switch_lit, balls_mask and switch_timer. Those are as before the step's action.
     void (*act)(LaneWork&, int lane, float collect);
     void* owner;   ///< for `act`
 };

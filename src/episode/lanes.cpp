@@ -113,7 +113,7 @@ private:
         work_.carrying[lane] = world.carrying() ? -1 : 0;
         work_.door_open[lane] = world.door_open ? -1 : 0;
         work_.switch_lit[lane] = world.switch_lit ? -1 : 0;
-        work_.balls[lane] = world.balls;
+        work_.balls_mask[lane] = world.balls_mask;
         work_.switch_timer[lane] = world.switch_timer;
     }
 
@@ -195,7 +195,7 @@ private:
             if (work_.neurons[static_cast<std::size_t>(sensor_count * width_) + i] != hidden_before_[i]) return false;
         return work_.bumper_right[l] == before_.bumper_right[l] && work_.bumper_left[l] == before_.bumper_left[l] &&
                work_.carrying[l] == before_.carrying[l] && work_.door_open[l] == before_.door_open[l] &&
-               work_.balls[l] == before_.balls[l] && work_.switch_lit[l] == before_.switch_lit[l] &&
+               work_.balls_mask[l] == before_.balls_mask[l] && work_.switch_lit[l] == before_.switch_lit[l] &&
                work_.switch_timer[l] == before_.switch_timer[l];
     }
 

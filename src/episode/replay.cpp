@@ -12,7 +12,7 @@ StepRecord record(int step, Pose const& pose, Sensors const& sensors, Effectors 
             effectors,
             world.carrying(),
             world.door_open,
-            world.balls,
+            world.balls_mask,
             world.collected,
             world.switch_lit,
             world.switch_timer,
@@ -31,7 +31,7 @@ StepRecord step_by_hand(Arena const& arena, int step, Effectors const& effectors
 /// The world that a row describes. Which ball is carried is not recorded, and matters to no column.
 WorldState world_after(Arena const& arena, StepRecord const& row) {
     WorldState world = start_world(arena);
-    world.balls = row.balls;
+    world.balls_mask = row.balls_mask;
     world.carried = row.carrying ? 0 : -1;
     world.door_open = row.door_open;
     world.switch_lit = row.switch_lit;

@@ -105,9 +105,10 @@ public:
             if (context_.shaper->rule() == ShapingRule::share) e.shown = now.shaping.shown;
         }
         Descriptors& d = e.descriptors;
-        d.balls.assign(world.released.begin(),
-                       world.released.begin() + static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
-        d.bits.assign(now.bits.begin(), now.bits.begin() + now.steps);
+        d.ball_positions.assign(world.released.begin(),
+                                world.released.begin() +
+                                    static_cast<std::ptrdiff_t>(context_.arena.task.ball_positions.size()));
+        d.channel_bits.assign(now.bits.begin(), now.bits.begin() + now.steps);
         d.path = now.path;
         ChannelHistograms histograms;
         for (int c = 0; c < continuous_count; ++c)
@@ -115,7 +116,7 @@ public:
                 histograms.continuous[static_cast<std::size_t>(c)][static_cast<std::size_t>(bin)] =
                     tally_.counts[c][bin][lane];
         std::uint32_t ones[binary_count];
-        kernel_.count_ones(d.bits.data(), now.steps, ones);
+        kernel_.count_ones(d.channel_bits.data(), now.steps, ones);
         std::copy_n(ones, binary_count, histograms.ones.begin());
         d.entropies = entropies(histograms, now.steps);
         queue_.deliver(now.ticket, std::move(e));

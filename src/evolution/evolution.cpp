@@ -81,7 +81,7 @@ void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances
     for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].diversity = diversity[i];
 }
 
-/// RS of everybody within the pool; only rule share looks at the others.
+/// RS of every member within the pool; only rule share looks at the others.
 void set_shaping(Population& pool, EvolutionConfig const& config) {
     if (!by_share(config)) {
         for (Individual& member : pool.members) member.shaping = member.birth->shaping;
@@ -181,8 +181,8 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
         double selection_seconds = watch.lap();
 
         bool const takes_turns = config.use_shaping && config.shaping.use == ShapingUse::distance;
-        bool const shaping_serves = takes_turns && shaping_serves_at(seed, generation, config.diversity);
-        DistanceKind const kind = distance_at(seed, generation, config.diversity);
+        bool const shaping_serves = takes_turns && shaping_serves_at(seed, generation, config.distance_schedule);
+        DistanceKind const kind = distance_at(seed, generation, config.distance_schedule);
         PoolDistances distances{state.population, static_cast<int>(born.size()), kind};
         std::vector<Individual> children = evaluate(born, evaluator, distances, by_share(config));
 

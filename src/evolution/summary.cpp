@@ -37,7 +37,7 @@ GenerationSummary summarize(GenerationReport const& report) {
         if (sharers > 1) summary.tied += sharers;
 
     summary.evaluations = report.born.size();
-    for (Individual const& child : report.born) summary.steps += child.descriptors->bits.size();
+    for (Individual const& child : report.born) summary.steps += child.descriptors->channel_bits.size();
     return summary;
 }
 

@@ -16,7 +16,7 @@ ExperimentConfig bench_config() {
     config.evolution.population = 64;
     config.evolution.founders = 128;
     config.evolution.generations = 24;
-    config.evolution.diversity.period = 4;
+    config.evolution.distance_schedule.period = 4;
     return config;
 }
 

@@ -42,7 +42,7 @@ struct Batch {
 /// Batches from the thread that simulates to the one that matches, in order.
 class BatchQueue {
 public:
-    /// Waits for room. False if nobody will take it any more.
+    /// Waits for room. False if the reader has stopped.
     bool put(Batch batch) {
         std::unique_lock lock{mutex_};
         changed_.wait(lock, [&] { return waiting_.size() < most_batches_waiting || abandoned_; });
@@ -85,7 +85,7 @@ private:
     std::exception_ptr failure_;
 };
 
-/// Thrown through a reader of the archive once nobody wants more; never leaves this file.
+/// Thrown through a reader of the archive once no more is wanted; never leaves this file.
 struct Abandoned {};
 
 /// Where the channels that decide a delivery are among the bits and the values of a step.
@@ -117,7 +117,8 @@ public:
             if (steps == 0) continue;
             Trace& trace = traces_[episodes_[lane]];
             record_deliveries(chunk, lane, steps, trace);
-            for (std::size_t step = 0; step < steps; ++step) trace.bits.push_back(chunk.words[step * width + lane]);
+            for (std::size_t step = 0; step < steps; ++step)
+                trace.channel_bits.push_back(chunk.words[step * width + lane]);
             for (std::size_t i = 0; i < steps * continuous_count; ++i)
                 trace.values.push_back(chunk.values[i * width + lane]);
         }
@@ -126,7 +127,8 @@ public:
     void rest(int lane, int steps) override {
         Trace& trace = traces_[episodes_[static_cast<std::size_t>(lane)]];
         std::size_t const last = trace.values.size() - continuous_count;
-        trace.bits.insert(trace.bits.end(), static_cast<std::size_t>(steps), std::uint16_t{trace.bits.back()});
+        trace.channel_bits.insert(trace.channel_bits.end(), static_cast<std::size_t>(steps),
+                                  std::uint16_t{trace.channel_bits.back()});
         for (int step = 0; step < steps; ++step)
             for (std::size_t i = 0; i < continuous_count; ++i) trace.values.push_back(trace.values[last + i]);
     }
@@ -159,7 +161,7 @@ private:
 void simulate(RunDirectory const& run, Batch& batch) {
     batch.traces.resize(batch.size());
     for (Trace& trace : batch.traces) {
-        trace.bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
+        trace.channel_bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
         trace.values.reserve(static_cast<std::size_t>(run.config.episode.steps) * continuous_count);
     }
     Recorder recorder{run.arena, batch.networks, batch.traces};
@@ -251,7 +253,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
     archived_individuals(run);
     provenance.kind = "all";
     provenance.best_balls = run.individual("best")->balls;
-    Source const everybody = [&](auto const& each) {
+    Source const all_individuals = [&](auto const& each) {
         std::uint64_t number = 0;
         for_each_individual(run.file(run_file::all_individuals), run.lineage.generation,
                             [&](ArchivedIndividual const& individual) {
@@ -261,7 +263,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
     };
     if (success_balls == 0) success_balls = std::max(1, (provenance.best_balls + 1) / 2);
     EvidenceConfig evidence{std::move(gammas), false, success_balls};
-    return build(run, everybody, config, kind, std::move(provenance), observe, std::move(evidence));
+    return build(run, all_individuals, config, kind, std::move(provenance), observe, std::move(evidence));
 }
 
 std::uint64_t archived_individuals(RunDirectory const& run) {

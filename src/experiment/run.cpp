@@ -34,7 +34,7 @@ std::string describe(GenerationSummary const& row, bool shaped) {
     return note;
 }
 
-/// The rest of the story of an evaluation that threw: saves the genome, and says who it was.
+/// The error of an evaluation that threw: names the individual, whose genome it saves.
 Error tell(EvaluationFailure const& failure, int generation, std::string const& genome_path) {
     IndividualId const id{static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(failure.index())};
     std::string remedy;
@@ -61,7 +61,7 @@ Error failure_in_hand(int generation, std::string const& genome_path) {
     } catch (std::exception const& error) { return of_rank_0(error.what(), "Resume the run."); }
 }
 
-/// Ends all ranks; the only way once replies are under way that nobody will take.
+/// Ends all ranks; the only way once replies are under way that no rank will take.
 [[noreturn]] void end_all(Session const& session, Error const& error) {
     write_stderr(fmt::format("lore-evolve: {}\n", error.what()));
     session.abort(static_cast<int>(error.exit_code()));

@@ -76,8 +76,8 @@ void find_checkpoint(RunSetup& setup) {
     setup.checkpoint = std::move(found.checkpoint);
 }
 
-/// The founders are those that the run was started with, wherever they are now. Once generation 0 is past, nobody needs
-/// them.
+/// The founders are those that the run was started with, wherever they are now. Once generation 0 is past, the run does
+/// not need them.
 void find_founders(RunSetup& setup) {
     std::string& from = setup.order.config.founders_from;
     if (!from.empty()) from = absolute_path(from);

@@ -152,9 +152,9 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("mutate", evolution.founding.mutate, "one mutation each of those that come from there");
 
     d.section("diversity");
-    d.add("period", evolution.diversity.period, 1, any,
+    d.add("period", evolution.distance_schedule.period, 1, any,
           "the behavioral distance is drawn anew every so many generations");
-    d.add("distances", evolution.diversity.distances, distance_kind, "drawn from: " + distance_names());
+    d.add("distances", evolution.distance_schedule.distances, distance_kind, "drawn from: " + distance_names());
 
     MutationConfig& mutation = evolution.mutation;
     d.section("mutation");

@@ -22,8 +22,8 @@ struct WorkOrder {
 /// Throws Error: the knowledge base is missing or damaged, or does not fit.
 EvaluationContext context_of(WorkOrder const&);
 
-/// Rank 0: gives the order and hears from everybody that it can work. Returns the ranks' host names.
-/// Throws Error with the first complaint; everybody is released then.
+/// Rank 0: gives the order, and hears from every rank that it can work. Returns the ranks' host names.
+/// Throws Error with the first complaint; all ranks are released then.
 std::vector<std::string> give_order(Session const&, WorkOrder const&);
 
 }   // namespace lore

@@ -18,7 +18,7 @@ constexpr int steps_between_robots = 50;
 
 // Layout [pixels].
 constexpr double plan_width = 780, left_margin = 66, top_margin = 46, right_margin = 106;
-constexpr double bend = 0.3;   // that nobody sees
+constexpr double bend = 0.3;   // too small to be seen
 constexpr double axis_room = 48, strip_height = 130, bottom_margin = 52, legend_height = 26;
 
 constexpr std::string_view ink = "#222222", wall_color = "#3a3a3a", pale = "#dddddd", gray = "#8c8c8c",
@@ -96,7 +96,7 @@ private:
     /// Balls, basket lights and the switch, with names; above the trajectory, because they are small.
     void paint_lights() {
         bool const at_start = scene_.balls_at_start;
-        for (Point const& ball : scene_.balls) {
+        for (Point const& ball : scene_.ball_positions) {
             if (!at_start) svg_.circle(place(ball), 11, {.stroke = ink, .width = 1, .dashes = "3 3"});
             svg_.circle(place(ball), 6, {.fill = ball_color, .stroke = ink, .width = 1});
         }

@@ -21,7 +21,7 @@ KnowledgeBuilder::~KnowledgeBuilder() = default;
 KnowledgeBuilder::KnowledgeBuilder(KnowledgeBuilder&&) noexcept = default;
 
 void KnowledgeBuilder::begin_individual(Exhibit const& exhibit) {
-    ++individuals_;   // numbers individuals from 1, so that 0 in last_exhibitor_ is nobody
+    ++individuals_;   // numbers individuals from 1, so that 0 in last_exhibitor_ is no individual
     windows_ += exhibit.windows.size();
     if (evidence_) evidence_->begin(exhibit);
 }

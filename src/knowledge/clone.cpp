@@ -64,16 +64,6 @@ private:
     bool all_alike_ = false;
 };
 
-/// Channels of one step in their order.
-std::array<float, channel_count> channels_at(Window const& window, std::size_t step) {
-    std::array<float, channel_count> channels{};
-    for (std::size_t bit = 0; bit < binary_channels.size(); ++bit)
-        channels[static_cast<std::size_t>(binary_channels[bit])] = static_cast<float>(window.bits[step] >> bit & 1);
-    for (std::size_t k = 0; k < continuous_channels.size(); ++k)
-        channels[static_cast<std::size_t>(continuous_channels[k])] = window.values[step * continuous_count + k];
-    return channels;
-}
-
 float gene_of(double decoded) {
     return std::clamp(static_cast<float>((decoded - gene_origin) / gene_span), 0.0f, 1.0f);
 }

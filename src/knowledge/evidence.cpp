@@ -103,7 +103,7 @@ void EvidenceGatherer::count_in_era() {
     }
 }
 
-/// An era in which all or none succeeded has nobody to be compared with.
+/// An era in which all or none succeeded has nothing to compare.
 void EvidenceGatherer::end_era() {
     bool const counts = era_all_.successes > 0 && era_all_.failures > 0;
     if (counts) {

@@ -16,9 +16,9 @@
 //    and the number of bits is added last. So a match differs in at most D bits, D the largest number below the squared
 //    threshold (3 for the paper's).
 // 2. Cut the bits into D + 1 blocks: two windows that differ in at most D bits agree in at least one block. A hash
-//    table per block finds all who agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to block
-//    i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks of
-//    whole channels, which change seldom, or of neighboring steps. Blocks of a few bits select nothing; then one
+//    table per block finds all windows that agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to
+//    block i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks
+//    of whole channels, which change seldom, or of neighboring steps. Blocks of a few bits select nothing; then one
 //    bucket holds all features.
 // 3. The sum of squares over n steps is at least n times the square of the means' difference. Sums of each channel over
 //    each half, scaled and rounded to integers, bound the continuous part from below.
@@ -28,10 +28,10 @@
 // each.
 //
 // While the set grows, which is when a knowledge base is built, a search may also use what it has found: buckets are
-// visited from the smallest to the largest, and after k of them whoever has not been seen differs in at least k bits,
-// so that a match at a smaller distance ends the search; and bounds 1 and 3 shrink with the distance. Most of a bucket
-// is passed over by bound 3 for sums over the whole window, which fit into 8 bytes together with the number of set
-// bits.
+// visited from the smallest to the largest, and after k of them a feature that has not been seen differs in at least k
+// bits, so that a match at a smaller distance ends the search; and bounds 1 and 3 shrink with the distance. Most of a
+// bucket is passed over by bound 3 for sums over the whole window, which fit into 8 bytes together with the number of
+// set bits.
 
 namespace lore {
 

@@ -26,7 +26,7 @@ struct Shaper::State {
     std::unique_ptr<FeatureIndex> index;
     double highest = no_feature_value;
     std::mutex mutex;                                   ///< guards idle
-    std::vector<std::unique_ptr<FeatureSearch>> idle;   ///< searches that nobody borrows now
+    std::vector<std::unique_ptr<FeatureSearch>> idle;   ///< searches that are not lent now
 };
 
 struct Shaper::Reader::Loan {

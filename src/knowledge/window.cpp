@@ -6,10 +6,19 @@
 
 namespace lore {
 
+std::array<float, channel_count> channels_at(Window const& window, std::size_t step) {
+    std::array<float, channel_count> channels{};
+    for (std::size_t i = 0; i < binary_channels.size(); ++i)
+        channels[static_cast<std::size_t>(binary_channels[i])] = static_cast<float>(window.bits[step] >> i & 1);
+    for (std::size_t i = 0; i < continuous_channels.size(); ++i)
+        channels[static_cast<std::size_t>(continuous_channels[i])] = window.values[step * continuous_count + i];
+    return channels;
+}
+
 std::vector<Window> windows_of(Trace const& trace, int window_length) {
     assert(window_length >= 1);
     auto const length = static_cast<std::size_t>(window_length);
-    std::span<std::uint16_t const> const bits{trace.bits};
+    std::span<std::uint16_t const> const bits{trace.channel_bits};
     std::span<float const> const values{trace.values};
     std::vector<Window> windows;
     windows.reserve(bits.size() / length);

@@ -23,7 +23,7 @@ Json arena_data(Scene const& scene) {
     };
     for (Rect const& wall : scene.walls) walls.push_back(corners(wall));
     for (Rect const& door : scene.doors) doors.push_back(corners(door));
-    for (Point const& ball : scene.balls) balls.push_back({hundredths(ball.x), hundredths(ball.y)});
+    for (Point const& ball : scene.ball_positions) balls.push_back({hundredths(ball.x), hundredths(ball.y)});
     return {{"width", hundredths(scene.width)},
             {"height", hundredths(scene.height)},
             {"walls", walls},

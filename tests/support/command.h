@@ -35,7 +35,7 @@ inline std::vector<pid_t> children_of(pid_t parent) {
     return children;
 }
 
-/// The dead whom nobody has asked for yet do not count.
+/// Dead processes that their parent has not waited for do not count.
 inline bool has_living_children(pid_t parent) {
     for (pid_t const child : children_of(parent)) {
         std::string const status = file_text("/proc/" + std::to_string(child) + "/stat");

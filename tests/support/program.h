@@ -59,6 +59,14 @@ protected:
         EXPECT_FALSE(std::filesystem::exists(scratch.file("never")));
     }
 
+    void write(std::string const& file, std::string const& text) {
+        std::ofstream{scratch.file(file), std::ios::binary} << text;
+    }
+    std::string content(std::string const& file) {
+        std::ifstream stream{scratch.file(file), std::ios::binary};
+        return {std::istreambuf_iterator<char>{stream}, {}};
+    }
+
     Scratch scratch;
 
 private:

@@ -22,7 +22,7 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
     config.evolution.population = 8;
     config.evolution.founders = 16;
     config.evolution.generations = 6;
-    config.evolution.diversity.period = 2;
+    config.evolution.distance_schedule.period = 2;
     write_file_atomically(file(run_file::config), to_toml(config));
     write_file_atomically(file(run_file::arena), std::string_view{arena_text(config.arena)});
     ProgressWriter progress{file(run_file::progress), 0};

@@ -13,8 +13,6 @@ namespace {
 class LoreCampaignTest : public test::ProgramTest {
 protected:
     LoreCampaignTest() : ProgramTest(LORE_CAMPAIGN) {}
-
-    void write(std::string const& file, std::string const& text) { std::ofstream{scratch.file(file)} << text; }
 };
 
 }   // namespace

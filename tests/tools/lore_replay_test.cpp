@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 using namespace lore;
 using ::testing::HasSubstr;
@@ -18,13 +17,6 @@ namespace {
 class LoreReplay : public test::ProgramTest {
 protected:
     LoreReplay() : ProgramTest(LORE_REPLAY) {}
-    std::string content(std::string const& file) {
-        std::ifstream stream{scratch.file(file), std::ios::binary};
-        return {std::istreambuf_iterator<char>{stream}, {}};
-    }
-    void write(std::string const& file, std::string const& text) {
-        std::ofstream{scratch.file(file), std::ios::binary} << text;
-    }
 };
 
 }   // namespace

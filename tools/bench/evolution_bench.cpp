@@ -54,7 +54,7 @@ void whole_generation(benchmark::State& state, EvolvedState const& (*population)
     EvolvedState const& evolved = population();
     EvolutionConfig config = evolved.config;
     config.generations += 1000000;
-    config.diversity.distances = {kind};
+    config.distance_schedule.distances = {kind};
     SerialEvaluator evaluator{evolved.context};
     EvolutionState now = evolved.state;
     auto const one = [](GenerationReport const&) { return false; };

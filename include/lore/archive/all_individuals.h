@@ -15,9 +15,10 @@ namespace lore {
 /// Every individual that a run ever evaluated (`--archive all`): a file that only grows, frame after frame.
 ///
 /// A frame holds the generations since the last one; a child is written as its difference from its parent (about 30
-/// bytes), and each generation says who survived it, so that writer and reader alike keep one population and no more.
-/// Each frame has its own lengths and a checksum that runs on from frame to frame: none can be changed, lost or swapped
-/// unnoticed. Where frames end depends on their content alone, so that a resumed run writes the same bytes.
+/// bytes), and each generation says which individuals survived it, so that writer and reader alike keep one population
+/// and no more. Each frame has its own lengths and a checksum that runs on from frame to frame: none can be changed,
+/// lost or swapped unnoticed. Where frames end depends on their content alone, so that a resumed run writes the same
+/// bytes.
 
 /// Where a file stands; what a checkpoint keeps of it.
 struct AllIndividualsMark {

@@ -43,7 +43,7 @@ enum class Packing : std::uint8_t { compressed, fast, plain };
 /// former file is still there, whole.
 void write_container(std::string const& path, FileKind, std::span<std::byte const> payload,
                      Packing = Packing::compressed);
-/// A plain one, to be mapped; in pieces, because a knowledge base of everybody would not fit into memory twice.
+/// A plain one, to be mapped; in pieces, because a knowledge base of all individuals would not fit into memory twice.
 void write_plain_container(std::string const& path, FileKind, BytePieces payload);
 /// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
 Bytes read_container(std::string const& path, FileKind expected);

@@ -8,13 +8,13 @@
 
 namespace lore {
 
-/// The right to work on what a lock file stands for: one process of all that share its directory has it at a time.
+/// An exclusive right, represented by a lock file: of all processes that share its directory, one has it at a time.
 ///
 /// A lock of the open file (Linux's OFD locks), so that a started program can inherit it: if the process that took it
 /// is killed while that program goes on, it stays taken until that ends too.
 class FileLock {
 public:
-    /// Makes the file, and its directory, where they are missing. Nothing if somebody else has the lock; throws Error
+    /// Makes the file, and its directory, where they are missing. Nothing if another process has the lock; throws Error
     /// where the file cannot be made, or its file system knows no locks.
     static std::optional<FileLock> take(std::string const& path);
     static bool is_taken(std::string const& path);

@@ -28,7 +28,7 @@ enum class BallRule : std::uint8_t { all_at_start, one_per_press };
 struct TaskRules {
     std::string name = "source";
     DoorRule door = DoorRule::opens_with_switch;
-    BallRule balls = BallRule::all_at_start;
+    BallRule ball_rule = BallRule::all_at_start;
     int switch_pause = 0;   ///< steps until a pressed switch is lit again; 0: never
     std::vector<Point> ball_positions;
 };

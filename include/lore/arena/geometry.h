@@ -16,7 +16,7 @@ struct Geometry {
 
     /// Balls, then basket lights, then the switch; bit i of every light mask is lights[i].
     std::vector<Point> lights;
-    std::uint32_t basket_mask = 0, switch_mask = 0;   ///< balls are the low bits, as in WorldState::balls
+    std::uint32_t basket_mask = 0, switch_mask = 0;   ///< balls are the low bits, as in WorldState::balls_mask
     Surroundings surroundings;
 
     float radius_squared = 0, reach_squared = 0, basket_radius_squared = 0;   ///< [u^2]

@@ -17,8 +17,8 @@ struct RobotState {
 
 /// What a step changes in the world around it.
 struct WorldState {
-    std::uint16_t balls = 0;    ///< bit i: ball i lies on the floor
-    std::int8_t carried = -1;   ///< index of the ball in the robot's grip, or -1
+    std::uint16_t balls_mask = 0;   ///< bit i: ball i lies on the floor
+    std::int8_t carried = -1;       ///< index of the ball in the robot's grip, or -1
     bool door_open = false;
     bool switch_lit = true;
     std::int16_t switch_timer = 0;   ///< steps until a pressed switch is lit again (tasks with a pause)

@@ -18,20 +18,20 @@ inline constexpr int bits_per_step = channel_count;   ///< one bit a channel in 
 /// What the four behavioral distances compare (paper, "Dynamic behavioral diversity"); taken from the logged steps:
 /// pose and sensors before the move, effectors of the same step.
 struct Descriptors {
-    std::vector<Point> balls;                        ///< adhoc: where each ball was last released
-    std::vector<std::uint16_t> bits;                 ///< hamming: Trace::bits, one word a step
+    std::vector<Point> ball_positions;               ///< adhoc: where each ball was last released
+    std::vector<std::uint16_t> channel_bits;         ///< hamming: Trace::channel_bits, one word a step
     std::vector<Tile> path;                          ///< trajectory: the tile of every 50th step, from step 0
     std::array<double, channel_count> entropies{};   ///< entropy: per channel, in [0, 1]
     friend bool operator==(Descriptors const&, Descriptors const&) = default;
 };
 
-/// Calls `visit` with every field, in the order in which checkpoints hold them: the one list of them, for all who
-/// store, send, check or invent descriptors.
+/// Calls `visit` with every field, in the order in which checkpoints hold them: the one list of them, by
+/// which descriptors are stored, sent, checked and invented.
 template <class AnyDescriptors, class Visit>
 void for_each_field(AnyDescriptors& descriptors, Visit const& visit) {
-    auto& [balls, bits, path, entropies] = descriptors;   // does not compile while one is missing
-    visit(balls);
-    visit(bits);
+    auto& [ball_positions, channel_bits, path, entropies] = descriptors;   // does not compile while one is missing
+    visit(ball_positions);
+    visit(channel_bits);
     visit(path);
     visit(entropies);
 }

@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// All mutual distances of a pool, kept from one generation to the next for those who survive.
+/// All mutual distances of a pool, kept from one generation to the next for the survivors.
 ///
 /// Square, symmetric, zero diagonal; row-major [i][j].
 class DistanceMatrix {

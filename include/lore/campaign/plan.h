@@ -25,7 +25,7 @@ struct Treatment {
 enum class KnowledgeKind : std::uint8_t {
     lineage,        ///< Algorithm 1 over the lineage of a source run's best
     same_lineage,   ///< over that of `base` once more, with other options
-    all,            ///< over everybody evaluated in the source run of `base`
+    all,            ///< over all individuals evaluated in the source run of `base`
     random,         ///< `base` with drawn values
     permuted,       ///< `base` with its values shuffled among the features
     reduced         ///< a part of `base`
@@ -36,11 +36,11 @@ struct KnowledgePlan {
     std::string name;
     std::string label;
     KnowledgeKind kind = KnowledgeKind::lineage;
-    double balls = 0;                        ///< lineage: the level wished of the source run's best-of-run [balls]
-    int run = 0;                             ///< lineage: this source run, whatever its balls; 0: choose by `balls`
-    std::string base;                        ///< all but lineage: the knowledge base it starts from
-    std::uint64_t seed = 1;                  ///< random, permuted: of the draw
-    std::optional<int> window_length;        ///< of its windows [steps]; without: the source runs'
+    double wished_balls = 0;            ///< lineage: the level wished of the source run's best-of-run [balls]
+    int run = 0;                        ///< lineage: this source run, whatever its balls; 0: choose by `wished_balls`
+    std::string base;                   ///< all but lineage: the knowledge base it starts from
+    std::uint64_t seed = 1;             ///< random, permuted: of the draw
+    std::optional<int> window_length;   ///< of its windows [steps]; without: the source runs'
     std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
     std::vector<std::string> consensus;      ///< reduced: the knowledge bases that must know a feature too
     std::vector<std::string> options;        ///< further arguments of lore-kb build or reduce

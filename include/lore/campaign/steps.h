@@ -11,7 +11,7 @@ namespace lore {
 enum class StepKind : std::uint8_t {
     evolve,    ///< one run of lore-evolve
     choose,    ///< decides which source runs the knowledge bases come from
-    archive,   ///< a source run once more, keeping everybody
+    archive,   ///< a source run once more, keeping all individuals
     build,     ///< one knowledge base
     replay     ///< simulates what the report's pictures of trajectories show
 };

@@ -111,6 +111,7 @@ consteval int effector_place(Channel channel) { return static_cast<int>(channel)
 
 static_assert(channel_facts::are_in_order(), "channel_table lists every Channel once, in the order of the enumeration");
 static_assert(channel_facts::effectors_are_continuous(), "an effector is the output of a sigmoid, hence continuous");
-static_assert(channel_count <= 16, "a step's word (Trace::bits) has 16 bits, one a channel: 16 channels at most");
+static_assert(channel_count <= 16,
+              "a step's word (Trace::channel_bits) has 16 bits, one a channel: 16 channels at most");
 
 }   // namespace lore

@@ -23,8 +23,8 @@ enum class Purpose : std::uint32_t {
     test = 99               ///< inputs of property tests
 };
 
-/// A stream of random numbers that is a function of who asks: Philox-4x32-10 (Salmon et al. 2011) keyed by the run's
-/// seed, with the counter {block, slot, generation, purpose}.
+/// A stream of random numbers that is a function of its purpose and place: Philox-4x32-10 (Salmon et al. 2011) keyed by
+/// the run's seed, with the counter {block, slot, generation, purpose}.
 ///
 /// It has no state that would have to be sent or saved: the same child is born for any number of ranks, after a
 /// resume, or alone in a debugger. Cheap to make; copy it to replay it. Own distributions, because those of the

@@ -23,18 +23,18 @@ struct Trace {
     /// The lowest binary_count bits: the binary channels in the order of binary_channels; then the continuous channels
     /// in the order of continuous_channels, thresholded for the Hamming descriptor (range sensor nearer than half its
     /// range: value > 0.5; effector > 0.5). Bits from channel_count on are 0.
-    std::vector<std::uint16_t> bits;
+    std::vector<std::uint16_t> channel_bits;
     /// [step][continuous_count], continuous_channels order.
     std::vector<float> values;
     std::vector<Pose> poses;       ///< before the move of that step
     std::vector<int> deliveries;   ///< steps whose action delivered a ball, increasing
     WorldState final_world;
 
-    int steps() const { return static_cast<int>(bits.size()); }
+    int steps() const { return static_cast<int>(channel_bits.size()); }
 };
 
-/// The word of Trace::bits for one step.
-std::uint16_t trace_bits(Sensors const&, Effectors const&);
+/// The word of Trace::channel_bits for one step.
+std::uint16_t channel_bits(Sensors const&, Effectors const&);
 
 /// One step as an observer sees it; `world` is after the action, `next` after the move.
 struct StepView {

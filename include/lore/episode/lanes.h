@@ -20,7 +20,7 @@ struct LaneChunk {
     int width = 0;
     int steps = 0;
     float const* values = nullptr;   ///< [step][continuous_count][width], continuous_channels order, as Trace::values
-    std::uint16_t const* words = nullptr;   ///< [step][width], as Trace::bits
+    std::uint16_t const* words = nullptr;   ///< [step][width], as Trace::channel_bits
     float const* x = nullptr;               ///< [step][width], position before the move [u]
     float const* y = nullptr;
 };

@@ -16,7 +16,7 @@ struct StepRecord {
     // The world after the action of this step:
     bool carrying = false;
     bool door_open = false;
-    std::uint16_t balls = 0;   ///< bit i: ball i lies on the floor
+    std::uint16_t balls_mask = 0;   ///< bit i: ball i lies on the floor
     int collected = 0;
     bool switch_lit = true;
     int switch_timer = 0;

@@ -26,7 +26,7 @@ public:
     virtual std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, CompletionListener* = nullptr) = 0;
 };
 
-/// Evaluates in this process. Notifies nobody: no other rank is at work meanwhile.
+/// Evaluates in this process. Notifies no listener, because no other rank is at work meanwhile.
 class SerialEvaluator : public Evaluator {
 public:
     explicit SerialEvaluator(EvaluationContext context) : context_(std::move(context)) {}

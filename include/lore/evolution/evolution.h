@@ -1,7 +1,7 @@
 #pragma once
 
 #include <lore/behavior/distance_measurer.h>
-#include <lore/behavior/diversity.h>
+#include <lore/behavior/distance_schedule.h>
 #include <lore/core/signature.h>
 #include <lore/evaluation/evaluator.h>
 #include <lore/evolution/selection.h>
@@ -30,7 +30,7 @@ struct EvolutionConfig {
     bool use_shaping = false;    ///< RS is used, as `shaping` says; set where a knowledge base is given
     ShapingConfig shaping;
     std::vector<double> feature_values;   ///< of the base; rule share alone needs them here
-    DiversityConfig diversity;
+    DistanceSchedule distance_schedule;
     MutationConfig mutation;
     NetworkLimits limits;
     FoundingConfig founding;

@@ -13,7 +13,7 @@ struct Scene {
     float width = 0, height = 0;
     std::vector<Rect> walls;   ///< without the door
     std::vector<Rect> doors;   ///< parts of one door; empty without one
-    std::vector<Point> balls;
+    std::vector<Point> ball_positions;
     bool balls_at_start = true;   ///< false: each comes with a press of the switch
     Point basket_center;
     float basket_radius = 0;

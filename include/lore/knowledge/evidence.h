@@ -10,7 +10,7 @@ namespace lore {
 inline constexpr int generations_per_era = 50;
 inline constexpr std::size_t most_gammas = 16;
 
-/// What a build gathers of each feature besides the rewards of those who showed it.
+/// The evidence that a build gathers of each feature besides the rewards of the individuals that showed it.
 struct EvidenceConfig {
     std::vector<double> gammas;   ///< Discounts a step of `returns`, increasing, each in (0, 1); empty: no returns.
     bool credit = false;          ///< Of pairs of child and parent. The builder is then given each individual's parent

@@ -36,7 +36,7 @@ struct KnowledgeArrays {
     EvidenceArrays evidence = {};
 };
 
-/// Behavioral features and what those who showed them earned (paper, "Knowledge building process").
+/// Behavioral features and the rewards of the individuals that showed them (paper, "Knowledge building process").
 ///
 /// Feature i has the window (bits, values)[i] and evidence: the rewards' sum and the number of individuals that
 /// exhibited it, and what else the build gathered. Its value is derived from the evidence by a rule, sum / count unless

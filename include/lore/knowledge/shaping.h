@@ -18,7 +18,7 @@ enum class ShapingRule : std::uint8_t {
     distinct,   ///< the sum of v_b over the different features shown
     sum,        ///< the sum of v_b over all showings: a feature shown twice counts twice
     share       ///< the sum of v_b (1 - f_b) over the different features shown, f_b the share of the pool that shows b:
-                ///< what everybody shows is worth nothing, so that the objective cannot saturate
+                ///< a feature that all show is worth nothing, so that the objective cannot saturate
 };
 std::string_view name(ShapingRule);
 ShapingRule shaping_rule(std::string_view name);   ///< throws UsageError
@@ -40,7 +40,7 @@ public:
     double highest_value() const;   ///< no_feature_value for an empty base
 
     /// One user's access, with a search of its own, for one thread at a time. Borrowed from the Shaper and given back
-    /// by the destructor, so that what the search has cached serves the next user.
+    /// by the destructor, so that the search's cache serves the next user.
     class Reader {
     public:
         Reader(Reader&&) noexcept;

@@ -13,21 +13,22 @@ enum class ValueRule : std::uint8_t { mean, discounted_return, contrast, credit 
 std::string_view name(ValueRule);              ///< "mean", "return", "contrast", "credit"
 ValueRule value_rule(std::string_view name);   ///< throws UsageError
 
-/// The paper: the mean of the rewards of those who showed the feature [balls].
+/// The paper: the mean of the rewards of the individuals that showed the feature [balls].
 double mean_value(double reward_sum, std::uint32_t individuals);
 
 /// The Monte Carlo estimate of a state's value by every visit (Sutton and Barto 2018, section 5.1): the mean over the
 /// feature's showings of the discounted return [balls].
 double return_value(double return_sum, std::uint64_t showings);
 
-/// Those who succeed, or those who do not, and how many of them showed the feature.
+/// How many individuals succeed (or do not), and how many of these showed the feature.
 struct Shares {
     std::uint64_t all = 0, showed = 0;
 };
-/// The difference of the log-odds of showing the feature between those who succeed and their contemporaries who do not:
+/// The difference of the log-odds of showing the feature between individuals that succeed and contemporaries that do
+/// not:
 ///     ln((s + 1/2) / (S - s + 1/2)) - ln((f + 1/2) / (F - f + 1/2)),
 /// s of S and f of F showed it. The halves keep it finite and nearly without bias (Haldane 1956, Anscombe 1956).
-/// Negative where the feature is rarer among those who succeed.
+/// Negative where the feature is rarer among those that succeed.
 double contrast_value(Shares const& successes, Shares const& failures);
 
 /// The mean gain of the children in which the feature is new: their balls less their parents' [balls]. 0 where it never

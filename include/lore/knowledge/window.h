@@ -3,6 +3,8 @@
 #include <lore/core/channels.h>
 #include <lore/episode/episode.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,9 +33,12 @@ inline constexpr std::uint16_t window_bits_mask = (1u << binary_count) - 1;
 /// values; the binary channels contribute the number of differing bits, the continuous ones the squares of their
 /// differences.
 struct Window {
-    std::span<std::uint16_t const> bits;   ///< per step, as Trace::bits; only the bits of binary channels count
+    std::span<std::uint16_t const> bits;   ///< per step, as Trace::channel_bits; only the bits of binary channels count
     std::span<float const> values;         ///< [step][continuous_count], as Trace::values
 };
+
+/// All channels of one step, in their order.
+std::array<float, channel_count> channels_at(Window const&, std::size_t step);
 
 /// The non-overlapping windows of a trace in order; steps that do not fill a last window are left out.
 std::vector<Window> windows_of(Trace const&, int window_length);

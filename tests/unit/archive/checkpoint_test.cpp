@@ -176,9 +176,10 @@ TEST(Checkpoint, is_refused_with_descriptors_that_no_evaluation_gives) {
         return pack_checkpoint(checkpoint);
     };
     EXPECT_NO_THROW(unpack_checkpoint(forged([](Descriptors&) {}), "x"));
-    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.balls.pop_back(); }), "x"), Error);
+    EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.ball_positions.pop_back(); }), "x"), Error);
     EXPECT_THROW(
-        unpack_checkpoint(forged([](Descriptors& d) { d.balls[0].x = std::numeric_limits<float>::quiet_NaN(); }), "x"),
+        unpack_checkpoint(
+            forged([](Descriptors& d) { d.ball_positions[0].x = std::numeric_limits<float>::quiet_NaN(); }), "x"),
         Error);
     EXPECT_THROW(unpack_checkpoint(forged([](Descriptors& d) { d.path[0] = {200, 3}; }), "x"), Error);
     EXPECT_THROW(unpack_checkpoint(

@@ -33,7 +33,7 @@ std::string refusal(Bytes const& file, FileKind kind = FileKind::lineage) {
     return "";
 }
 
-/// Makes the checksum right again after a change to the header, as somebody who means harm would.
+/// Makes the checksum right again after a change to the header, as a deliberate forger would.
 void reseal(Bytes& file) {
     XXH3_state_t* const state = XXH3_createState();
     XXH3_64bits_reset(state);

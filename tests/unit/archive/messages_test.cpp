@@ -55,7 +55,7 @@ TEST(Messages, carry_bits_that_repeat_in_little_space) {
     Stream rng{1, Purpose::test};
     for (int length : {0, 1, 2, 127, 128, 129, 4000}) {
         Delivery delivery;
-        std::vector<std::uint16_t>& bits = delivery.evaluation.descriptors.bits;
+        std::vector<std::uint16_t>& bits = delivery.evaluation.descriptors.channel_bits;
         while (static_cast<int>(bits.size()) < length)
             bits.insert(bits.end(),
                         std::min<std::size_t>(1 + rng.below(300), static_cast<std::size_t>(length) - bits.size()),

@@ -22,11 +22,12 @@ public:
         evaluation.balls = static_cast<int>(sum / 4.0f);
         evaluation.shaping = genome.biases[0];
         Descriptors& descriptors = evaluation.descriptors;
-        descriptors.balls = {{genome.biases[1], genome.biases[2]}, {sum, 1}};
+        descriptors.ball_positions = {{genome.biases[1], genome.biases[2]}, {sum, 1}};
         for (int step = 0; step < steps; ++step) {
             auto const gene = static_cast<std::uint32_t>(
                 genome.edges[static_cast<std::size_t>(step) % genome.edges.size()].weight * 4096);
-            descriptors.bits.push_back(static_cast<std::uint16_t>((gene + static_cast<std::uint32_t>(step)) & 0x7fff));
+            descriptors.channel_bits.push_back(
+                static_cast<std::uint16_t>((gene + static_cast<std::uint32_t>(step)) & 0x7fff));
             if (step % steps_per_tile_sample == 0)
                 descriptors.path.push_back({static_cast<std::uint8_t>(gene % 12), static_cast<std::uint8_t>(gene % 8)});
         }
@@ -43,7 +44,7 @@ inline EvolutionConfig small_evolution(int generations) {
     config.population = 20;
     config.founders = 40;
     config.generations = generations;
-    config.diversity.period = 5;
+    config.distance_schedule.period = 5;
     config.use_shaping = true;
     return config;
 }

@@ -42,7 +42,7 @@ TEST(ArenaFile, of_the_paper_is_built_in) {
     EXPECT_TRUE(target.doors.empty());
     EXPECT_EQ(target.task.switch_pause, 100);
     EXPECT_EQ(target.task.door, DoorRule::absent);
-    EXPECT_EQ(target.task.balls, BallRule::one_per_press);
+    EXPECT_EQ(target.task.ball_rule, BallRule::one_per_press);
 }
 
 TEST(ArenaFile, is_also_read_from_a_path) {

@@ -79,7 +79,7 @@ TEST(Contact, is_strict_at_the_radius) {
     // 12, 16, 20: the corner (100, 50) at exactly the radius.
     EXPECT_FALSE(mechanics::touches(wall, 88.0f, 66.0f, 400.0f));
     EXPECT_TRUE(mechanics::touches(wall, 88.0f, 65.99f, 400.0f));
-    EXPECT_TRUE(mechanics::touches(wall, 105.0f, 25.0f, 400.0f)) << "centre inside the wall";
+    EXPECT_TRUE(mechanics::touches(wall, 105.0f, 25.0f, 400.0f)) << "center inside the wall";
 }
 
 TEST(SegmentMeets, a_wall_that_it_crosses_touches_or_lies_in) {
@@ -142,8 +142,8 @@ TEST(Bumpers, agree_with_sampled_wall_points_wherever_the_samples_can_tell) {
         Rect const wall{static_cast<float>(x0), static_cast<float>(x0 + w), static_cast<float>(y0),
                         static_cast<float>(y0 + h)};
         float const theta = static_cast<float>(rng.uniform(-pi, pi));
-        bool const holds_centre = x0 <= 0 && x0 + w >= 0 && y0 <= 0 && y0 + h >= 0;
-        if (holds_centre || !mechanics::touches(wall, 0.0f, 0.0f, 400.0f)) continue;
+        bool const holds_center = x0 <= 0 && x0 + w >= 0 && y0 <= 0 && y0 + h >= 0;
+        if (holds_center || !mechanics::touches(wall, 0.0f, 0.0f, 400.0f)) continue;
         auto const pressed = mechanics::bumpers(wall, 0.0f, 0.0f, math::sincos(theta), 20.0f);
         bool surely[2]{}, possibly[2]{};   // by points well inside the sector, or not well outside of it
         for (double fx = 0; fx <= 1; fx += 0.02)

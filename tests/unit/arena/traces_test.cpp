@@ -17,7 +17,7 @@ using tests::TraceRow;
 WorldState world_before(Arena const& arena, TraceRow const* above) {
     WorldState world = start_world(arena);
     if (above == nullptr) return world;
-    world.balls = static_cast<std::uint16_t>(above->balls_mask());
+    world.balls_mask = static_cast<std::uint16_t>(above->balls_mask());
     world.carried = above->carrying() != 0 ? 0 : -1;
     world.door_open = above->door_open() != 0;
     world.switch_lit = above->switch_on() != 0;
@@ -84,7 +84,7 @@ Comparison follow(std::filesystem::path const& path) {
 
         act(arena, robot.pose, actions, world);
         EXPECT_EQ(world.carrying(), row.carrying() != 0) << name << " row " << i;
-        EXPECT_EQ(world.balls, row.balls_mask()) << name << " row " << i;
+        EXPECT_EQ(world.balls_mask, row.balls_mask()) << name << " row " << i;
         EXPECT_EQ(world.collected, row.collected()) << name << " row " << i;
         EXPECT_EQ(world.door_open, row.door_open() != 0) << name << " row " << i;
         EXPECT_EQ(world.switch_lit, row.switch_on() != 0) << name << " row " << i;

@@ -19,7 +19,7 @@ float value(Sensors const& sensors, Channel channel) { return sensors[static_cas
 
 TEST(StartWorld, has_all_balls_and_a_shut_door_in_the_source_task) {
     WorldState const world = start_world(load_arena("collectball", "source"));
-    EXPECT_EQ(world.balls, 255);
+    EXPECT_EQ(world.balls_mask, 255);
     EXPECT_FALSE(world.door_open);
     EXPECT_TRUE(world.switch_lit);
     EXPECT_EQ(world.released[4], (Point{97.5f, 50.625f}));
@@ -27,7 +27,7 @@ TEST(StartWorld, has_all_balls_and_a_shut_door_in_the_source_task) {
 
 TEST(StartWorld, has_no_ball_and_no_door_in_the_target_task) {
     WorldState const world = start_world(load_arena("collectball", "target"));
-    EXPECT_EQ(world.balls, 0);
+    EXPECT_EQ(world.balls_mask, 0);
     EXPECT_TRUE(world.door_open);
     EXPECT_EQ(world.released[0], (Point{0, 0}));
 }
@@ -39,7 +39,7 @@ TEST(Act, takes_the_first_ball_nearer_than_the_reach) {
     EXPECT_FALSE(world.carrying()) << "at exactly 20 u";
     act(arena, {97.5f, 50.625f + 19.99f, 0}, keep_collecting, world);
     EXPECT_EQ(world.carried, 4);
-    EXPECT_EQ(world.balls, 255 & ~16);
+    EXPECT_EQ(world.balls_mask, 255 & ~16);
 }
 
 TEST(Act, takes_one_ball_at_a_time) {
@@ -49,7 +49,7 @@ TEST(Act, takes_one_ball_at_a_time) {
     WorldState world = start_world(arena);
     for (int i = 0; i < 5; ++i) act(arena, {100, 100, 0}, keep_collecting, world);
     EXPECT_EQ(world.carried, 0) << "the first in index order";
-    EXPECT_EQ(world.balls, 2);
+    EXPECT_EQ(world.balls_mask, 2);
 }
 
 TEST(Act, does_one_thing_a_step) {
@@ -132,7 +132,7 @@ TEST(Act, lights_the_lamp_of_the_target_task_101_actions_after_the_press) {
     WorldState world = start_world(arena);
     Pose const there{532.5f, 50.0f, 0}, elsewhere{300, 100, 0};
     act(arena, there, keep_collecting, world);
-    EXPECT_EQ(world.balls, 1);
+    EXPECT_EQ(world.balls_mask, 1);
     EXPECT_FALSE(world.switch_lit);
     EXPECT_EQ(world.switch_timer, 100);
     for (int later = 1; later <= 100; ++later) {
@@ -154,7 +154,7 @@ TEST(Act, brings_the_ball_of_the_target_task_again_and_again) {
     for (int round = 1; round <= 3; ++round) {
         world.switch_lit = true;
         act(arena, {532.5f, 50.0f, 0}, keep_collecting, world);
-        ASSERT_EQ(world.balls, 1);
+        ASSERT_EQ(world.balls_mask, 1);
         act(arena, {97.5f, 50.625f, 0}, keep_collecting, world);
         ASSERT_EQ(world.carried, 0);
         act(arena, {296.25f, 374.0f, 0}, let_go, world);
@@ -181,7 +181,7 @@ TEST(Sense, reads_the_start_of_the_source_task) {
 TEST(Sense, does_not_see_taken_balls_or_a_lamp_that_is_out) {
     Arena const arena = load_arena("collectball", "source");
     WorldState world = start_world(arena);
-    world.balls = 0;
+    world.balls_mask = 0;
     world.carried = 1;
     world.switch_lit = false;
     Sensors const s = sense(arena, {{296.25f, 101.25f, 0.785f}, true, false}, world);

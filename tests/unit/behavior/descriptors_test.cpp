@@ -19,7 +19,7 @@ Arena room() {
 /// A robot that rests at the given place; all channels 0.
 Trace rest(int steps, float x, float y) {
     Trace trace;
-    trace.bits.assign(static_cast<std::size_t>(steps), 0);
+    trace.channel_bits.assign(static_cast<std::size_t>(steps), 0);
     trace.values.assign(static_cast<std::size_t>(steps) * continuous_count, 0.0f);
     trace.poses.assign(static_cast<std::size_t>(steps), Pose{x, y, 0});
     return trace;
@@ -87,18 +87,18 @@ TEST(Describe, samples_the_path_every_fifty_steps_from_the_first) {
 
 TEST(Describe, keeps_the_hamming_bits_and_the_places_of_the_tasks_balls) {
     Trace trace = rest(3, 25, 25);
-    trace.bits = {1, 2, 0x7fff};
+    trace.channel_bits = {1, 2, 0x7fff};
     trace.final_world.released[0] = {1, 2};
     trace.final_world.released[1] = {3, 4};
     trace.final_world.released[2] = {5, 6};   // the task has two balls
     Descriptors const d = describe(room(), trace);
-    EXPECT_EQ(d.bits, trace.bits);
-    EXPECT_EQ(d.balls, (std::vector<Point>{{1, 2}, {3, 4}}));
+    EXPECT_EQ(d.channel_bits, trace.channel_bits);
+    EXPECT_EQ(d.ball_positions, (std::vector<Point>{{1, 2}, {3, 4}}));
 }
 
 TEST(Describe, counts_channels_in_the_order_of_the_interface) {
     Trace trace = rest(2, 25, 25);
-    trace.bits[0] = 1;                           // the first binary channel is channel 3
+    trace.channel_bits[0] = 1;                   // the first binary channel is channel 3
     trace.values[continuous_count + 5] = 1.0f;   // the last continuous channel is channel 14
     auto const entropy = describe(room(), trace).entropies;
     EXPECT_EQ(entropy[3], 1.0);

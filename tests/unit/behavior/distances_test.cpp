@@ -20,7 +20,7 @@ Descriptors path(std::vector<Tile> tiles) {
 
 Descriptors bits(std::vector<std::uint16_t> words) {
     Descriptors d;
-    d.bits = std::move(words);
+    d.channel_bits = std::move(words);
     return d;
 }
 
@@ -34,8 +34,8 @@ TEST(DistanceKind, is_read_by_its_name) {
 
 TEST(AdhocDistance, is_euclidean_over_all_balls) {
     Descriptors a, b;
-    a.balls = {{0, 0}, {10, 10}};
-    b.balls = {{3, 4}, {10, 22}};
+    a.ball_positions = {{0, 0}, {10, 10}};
+    b.ball_positions = {{3, 4}, {10, 22}};
     EXPECT_EQ(adhoc_distance(a, b), 13.0);
     EXPECT_EQ(adhoc_distance(a, a), 0.0);
 }

@@ -16,7 +16,7 @@ CampaignPlan wishes(std::vector<double> const& levels) {
     for (double const level : levels) {
         KnowledgePlan knowledge;
         knowledge.name = "kb" + std::to_string(plan.knowledge.size() + 1);
-        knowledge.balls = level;
+        knowledge.wished_balls = level;
         plan.knowledge.push_back(knowledge);
     }
     return plan;

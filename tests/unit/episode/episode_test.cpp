@@ -26,7 +26,7 @@ TEST(Episode, logs_what_a_robot_that_stands_still_senses) {
         EXPECT_EQ(trace.poses[step], arena.start);
         EXPECT_EQ(trace.values[6 * step + 2], sensors[2]);
         EXPECT_EQ(trace.values[6 * step + 5], 0.5f);
-        EXPECT_EQ(trace.bits[step], trace_bits(sensors, {0.5f, 0.5f, 0.5f}));
+        EXPECT_EQ(trace.channel_bits[step], channel_bits(sensors, {0.5f, 0.5f, 0.5f}));
     }
     EXPECT_EQ(trace.final_world.collected, 0);
 }
@@ -43,16 +43,16 @@ TEST(Episode, logs_sensors_and_pose_before_the_move_and_effectors_of_the_same_st
 TEST(TraceBits, hold_the_binary_channels_then_the_thresholded_ones) {
     Sensors sensors{};
     Effectors effectors{};
-    EXPECT_EQ(trace_bits(sensors, effectors), 0);
+    EXPECT_EQ(channel_bits(sensors, effectors), 0);
     sensors[3] = 1;
-    EXPECT_EQ(trace_bits(sensors, effectors), 1u << 0) << "ball_right is the first binary channel";
+    EXPECT_EQ(channel_bits(sensors, effectors), 1u << 0) << "ball_right is the first binary channel";
     sensors[11] = 1;
-    EXPECT_EQ(trace_bits(sensors, effectors), 1u << 0 | 1u << 8);
+    EXPECT_EQ(channel_bits(sensors, effectors), 1u << 0 | 1u << 8);
     sensors[0] = 0.5f;
-    EXPECT_EQ(trace_bits(sensors, effectors), 1u << 0 | 1u << 8) << "exactly half the range is not nearer";
+    EXPECT_EQ(channel_bits(sensors, effectors), 1u << 0 | 1u << 8) << "exactly half the range is not nearer";
     sensors[0] = 0.51f;
     effectors[2] = 0.51f;
-    EXPECT_EQ(trace_bits(sensors, effectors), 1u << 0 | 1u << 8 | 1u << 9 | 1u << 14);
+    EXPECT_EQ(channel_bits(sensors, effectors), 1u << 0 | 1u << 8 | 1u << 9 | 1u << 14);
 }
 
 TEST(Episode, is_seen_by_an_observer_as_it_is_recorded) {
@@ -65,7 +65,7 @@ TEST(Episode, is_seen_by_an_observer_as_it_is_recorded) {
         WorldState const world = run_episode(arena, network, {}, [&](StepView const& view) {
             ASSERT_EQ(view.step, steps);
             ASSERT_EQ(view.pose, trace.poses[static_cast<std::size_t>(steps)]);
-            ASSERT_EQ(trace_bits(view.sensors, view.effectors), trace.bits[static_cast<std::size_t>(steps)]);
+            ASSERT_EQ(channel_bits(view.sensors, view.effectors), trace.channel_bits[static_cast<std::size_t>(steps)]);
             ASSERT_TRUE(steps == 0 || view.pose == last);
             last = view.next.pose;
             ++steps;

@@ -29,7 +29,7 @@ TEST(RecordSteps, says_what_the_recorded_episode_says) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].step, static_cast<int>(i));
         ASSERT_EQ(rows[i].pose, trace.poses[i]);
-        ASSERT_EQ(trace_bits(rows[i].sensors, rows[i].effectors), trace.bits[i]);
+        ASSERT_EQ(channel_bits(rows[i].sensors, rows[i].effectors), trace.channel_bits[i]);
         ASSERT_TRUE(i == 0 || rows[i - 1].next == rows[i].pose);
     }
     EXPECT_EQ(rows.back().collected, trace.final_world.collected);
@@ -60,7 +60,7 @@ TEST(Follow, takes_each_row_from_its_recorded_state) {
     rows[10].effectors = {0.5f, 0.5f, 1.0f};
     std::vector<StepRecord> const followed = follow(arena, rows);
     EXPECT_TRUE(followed[10].carrying);
-    EXPECT_EQ(followed[10].balls, 255 & ~16);
+    EXPECT_EQ(followed[10].balls_mask, 255 & ~16);
     EXPECT_EQ(followed[11], rows[11]) << "the row after it starts from the record again";
 }
 

@@ -93,7 +93,8 @@ std::vector<Genome> skilled(std::string const& task, int count) {
             Descriptors const& d = evaluations[i].descriptors;
             std::set<std::pair<int, int>> tiles;
             for (Tile tile : d.path) tiles.insert({tile.x, tile.y});
-            bool const carried = std::ranges::any_of(d.bits, [](std::uint16_t word) { return (word >> 8 & 1) != 0; });
+            bool const carried =
+                std::ranges::any_of(d.channel_bits, [](std::uint16_t word) { return (word >> 8 & 1) != 0; });
             scores.push_back({-100 * evaluations[i].balls - 30 * carried - static_cast<int>(tiles.size()), i});
         }
         std::ranges::sort(scores);
@@ -119,14 +120,14 @@ std::vector<Evaluation> evaluate_all_plainly(EvaluationContext const& context, s
 void expect_equal(Evaluation const& fast, Evaluation const& plain) {
     EXPECT_EQ(fast.balls, plain.balls);
     EXPECT_EQ(fast.shaping, plain.shaping);
-    EXPECT_EQ(fast.descriptors.balls, plain.descriptors.balls);
+    EXPECT_EQ(fast.descriptors.ball_positions, plain.descriptors.ball_positions);
     EXPECT_EQ(fast.descriptors.path, plain.descriptors.path);
     EXPECT_EQ(fast.descriptors.entropies, plain.descriptors.entropies);
-    auto const difference = std::mismatch(fast.descriptors.bits.begin(), fast.descriptors.bits.end(),
-                                          plain.descriptors.bits.begin(), plain.descriptors.bits.end());
-    EXPECT_EQ(fast.descriptors.bits.size(), plain.descriptors.bits.size());
-    EXPECT_TRUE(difference.first == fast.descriptors.bits.end())
-        << "first at step " << difference.first - fast.descriptors.bits.begin();
+    auto const difference = std::mismatch(fast.descriptors.channel_bits.begin(), fast.descriptors.channel_bits.end(),
+                                          plain.descriptors.channel_bits.begin(), plain.descriptors.channel_bits.end());
+    EXPECT_EQ(fast.descriptors.channel_bits.size(), plain.descriptors.channel_bits.size());
+    EXPECT_TRUE(difference.first == fast.descriptors.channel_bits.end())
+        << "first at step " << difference.first - fast.descriptors.channel_bits.begin();
     EXPECT_TRUE(fast == plain);
 }
 
@@ -175,8 +176,10 @@ TEST_P(EvaluateBatch, equals_the_plain_evaluation_to_the_bit) {
     // The comparison means something only if the robots do things.
     int touched = 0, carried = 0;
     for (Evaluation const& e : plain) {
-        touched += std::ranges::any_of(e.descriptors.bits, [](std::uint16_t word) { return (word >> 6 & 3) != 0; });
-        carried += std::ranges::any_of(e.descriptors.bits, [](std::uint16_t word) { return (word >> 8 & 1) != 0; });
+        touched +=
+            std::ranges::any_of(e.descriptors.channel_bits, [](std::uint16_t word) { return (word >> 6 & 3) != 0; });
+        carried +=
+            std::ranges::any_of(e.descriptors.channel_bits, [](std::uint16_t word) { return (word >> 8 & 1) != 0; });
     }
     EXPECT_GT(touched, 20);
     EXPECT_GT(carried, 10);
@@ -272,7 +275,8 @@ TEST_P(EvaluateBatch, stops_when_still_as_the_plain_evaluation_does) {
         EvaluationContext const context{arena(GetParam()), {1500, still}, shaper_from(GetParam(), {}, 6)};
         auto const plain = evaluate_all_plainly(context, genomes);
         expect_batches_equal(context, genomes, plain);
-        EXPECT_TRUE(std::ranges::any_of(plain, [](Evaluation const& e) { return e.descriptors.bits.size() < 1500; }));
+        EXPECT_TRUE(
+            std::ranges::any_of(plain, [](Evaluation const& e) { return e.descriptors.channel_bits.size() < 1500; }));
     }
 }
 

@@ -17,7 +17,7 @@ EvolutionConfig small_config() {
     config.population = 20;
     config.founders = 40;
     config.generations = 60;
-    config.diversity.period = 7;
+    config.distance_schedule.period = 7;
     return config;
 }
 
@@ -184,7 +184,7 @@ TEST(Evolve, measures_only_pairs_with_a_child_unless_the_distance_has_changed) {
     ASSERT_EQ(evaluator.measured_from().size(), kinds.size());
     EXPECT_GT(std::set<DistanceKind>(kinds.begin(), kinds.end()).size(), 1u);
     for (std::size_t g = 0; g < kinds.size(); ++g) {
-        EXPECT_EQ(kinds[g], distance_at(2, static_cast<int>(g), config.diversity));
+        EXPECT_EQ(kinds[g], distance_at(2, static_cast<int>(g), config.distance_schedule));
         EXPECT_EQ(evaluator.measured_from()[g], g > 0 && kinds[g] == kinds[g - 1] ? 20 : 0) << "generation " << g;
     }
 }

@@ -69,7 +69,7 @@ TEST(TieKey, favors_neither_old_nor_young) {
 }
 
 TEST(TournamentWinners, let_every_member_take_part_in_exactly_two) {
-    // In a strict order the best wins both of its tournaments, the worst none: wins tell who took part.
+    // In a strict order the best wins both of its tournaments, the worst none: wins tell which members took part.
     for (int const size : {2, 3, 8, 9, 200, 201}) {
         std::vector<Objectives> ladder;
         for (int i = 0; i < size; ++i) ladder.push_back(two(i, i));

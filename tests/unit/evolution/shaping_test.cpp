@@ -22,7 +22,7 @@ EvolutionConfig shaped(ShapingUse use) {
     config.population = 20;
     config.founders = 40;
     config.generations = 30;
-    config.diversity.period = 3;
+    config.distance_schedule.period = 3;
     config.use_shaping = true;
     config.shaping.use = use;
     return config;
@@ -70,7 +70,7 @@ TEST(ShapingUse, distance_puts_the_shaping_value_in_the_place_of_diversity_for_s
 
 TEST(ShapingUse, distance_draws_the_shaping_value_as_often_as_each_distance) {
     int served = 0;
-    DiversityConfig const config;
+    DistanceSchedule const config;
     for (int period = 0; period < 5000; ++period) served += shaping_serves_at(1, period * config.period, config);
     EXPECT_NEAR(served, 1000, 100);
     EXPECT_EQ(shaping_serves_at(1, 50, config), shaping_serves_at(1, 99, config)) << "a period through";

@@ -15,7 +15,7 @@ Individual member(int balls, double diversity, double shaping, int edges, int hi
     Individual individual;
     individual.birth = std::move(birth);
     auto descriptors = std::make_shared<Descriptors>();
-    descriptors->bits.resize(4000);
+    descriptors->channel_bits.resize(4000);
     individual.descriptors = std::move(descriptors);
     individual.diversity = diversity;
     individual.shaping = shaping;

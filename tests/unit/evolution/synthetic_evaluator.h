@@ -58,9 +58,9 @@ private:
         float const first = genome.edges.empty() ? 0.0f : genome.edges[0].weight;
         float const last = genome.edges.empty() ? 0.0f : genome.edges.back().weight;
         e.shaping = std::floor(first * 8) / 8;
-        e.descriptors.balls = {{first, last}};
+        e.descriptors.ball_positions = {{first, last}};
         for (Edge const& edge : genome.edges) {
-            e.descriptors.bits.push_back(
+            e.descriptors.channel_bits.push_back(
                 static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(edge.weight) >> 8 & 0x7fff));
             e.descriptors.path.push_back(
                 {static_cast<std::uint8_t>(edge.weight * 11), static_cast<std::uint8_t>(edge.source % 8)});
@@ -76,12 +76,12 @@ private:
     std::vector<int> measured_from_;
 };
 
-/// Nobody differs from anybody.
+/// All individuals are alike.
 class ConstantEvaluator : public Evaluator {
 public:
     std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, CompletionListener* = nullptr) override {
         Evaluation e;
-        e.descriptors.balls = {{0, 0}};
+        e.descriptors.ball_positions = {{0, 0}};
         return std::vector<Evaluation>(genomes.size(), e);
     }
 };

@@ -48,8 +48,8 @@ TEST(Config, comes_back_from_its_own_text_whatever_its_values) {
         config.evolution.use_diversity = rng.coin();
         config.evolution.mutation.weight_probability = rng.uniform();
         config.evolution.mutation.eta = (1 << rng.below(6)) - 1;
-        config.evolution.diversity.distances = {static_cast<DistanceKind>(rng.below(distance_kinds)),
-                                                static_cast<DistanceKind>(rng.below(distance_kinds))};
+        config.evolution.distance_schedule.distances = {static_cast<DistanceKind>(rng.below(distance_kinds)),
+                                                        static_cast<DistanceKind>(rng.below(distance_kinds))};
         config.knowledge.match_threshold = static_cast<float>(rng.uniform(0.1, 10));
         config.checkpoint_minutes = rng.uniform() * 100;
         ExperimentConfig const back = parse(to_toml(config));
@@ -69,8 +69,9 @@ TEST(Config, takes_overrides_with_and_without_quotes_and_brackets) {
     EXPECT_EQ(config.evolution.ties, TieRule::older);
     EXPECT_EQ(config.task, "target");
     EXPECT_EQ(config.name, "a b");
-    EXPECT_EQ(config.evolution.diversity.distances, (std::vector{DistanceKind::hamming, DistanceKind::entropy}));
-    EXPECT_EQ(parse("", {"diversity.distances=[\"adhoc\"]"}).evolution.diversity.distances,
+    EXPECT_EQ(config.evolution.distance_schedule.distances,
+              (std::vector{DistanceKind::hamming, DistanceKind::entropy}));
+    EXPECT_EQ(parse("", {"diversity.distances=[\"adhoc\"]"}).evolution.distance_schedule.distances,
               std::vector{DistanceKind::adhoc});
 }
 

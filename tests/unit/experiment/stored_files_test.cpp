@@ -54,14 +54,14 @@ std::string lineage_told(std::string const& path) {
 std::string told(Individual const& member) {
     Descriptors const& descriptors = *member.descriptors;
     std::string values;
-    for (Point const& ball : descriptors.balls) values += fmt::format("{:a} {:a} ", ball.x, ball.y);
-    values += fmt::format("{} ", fmt::join(descriptors.bits, " "));
+    for (Point const& ball : descriptors.ball_positions) values += fmt::format("{:a} {:a} ", ball.x, ball.y);
+    values += fmt::format("{} ", fmt::join(descriptors.channel_bits, " "));
     for (Tile const tile : descriptors.path) values += fmt::format("{}/{} ", tile.x, tile.y);
     for (double const entropy : descriptors.entropies) values += fmt::format("{:a} ", entropy);
     return fmt::format("{} objectives {} {} {}, diversity {}, crowding {}, {} balls {} bits {} tiles {}\n",
                        member.objectives.count, member.objectives.value[0], member.objectives.value[1],
-                       member.objectives.value[2], member.diversity, member.crowding, descriptors.balls.size(),
-                       descriptors.bits.size(), descriptors.path.size(), checksum_text(checksum(values))) +
+                       member.objectives.value[2], member.diversity, member.crowding, descriptors.ball_positions.size(),
+                       descriptors.channel_bits.size(), descriptors.path.size(), checksum_text(checksum(values))) +
            told(*member.birth);
 }
 

@@ -41,11 +41,11 @@ DISTANCE = {
         ("    friend bool operator==(Descriptors const&",
          "    std::int32_t delivered = 0;   ///< delivery: balls in the basket\n"
          "    friend bool operator==(Descriptors const&"),
-        ("[balls, bits, path, entropies]", "[balls, bits, path, entropies, delivered]"),
+        ("[ball_positions, channel_bits, path, entropies]", "[ball_positions, channel_bits, path, entropies, delivered]"),
         ("    visit(entropies);\n", "    visit(entropies);\n    visit(delivered);\n"),
     ],
     "src/behavior/descriptors.cpp": [
-        ("    d.bits = trace.bits;\n", "    d.bits = trace.bits;\n    d.delivered = trace.final_world.collected;\n"),
+        ("    d.channel_bits = trace.channel_bits;\n", "    d.channel_bits = trace.channel_bits;\n    d.delivered = trace.final_world.collected;\n"),
     ],
     "src/evaluation/batch.cpp": [
         ("        d.path = now.path;\n", "        d.path = now.path;\n        d.delivered = world.collected;\n"),

@@ -83,7 +83,7 @@ TEST(OneMoreSensor, is_connected_in_a_founder_and_recorded_in_its_trace) {
     for (std::size_t step = 0; step < 50; ++step) {
         float const value = trace.values[step * 7 + compass];
         EXPECT_EQ(value, trace.poses[step].theta / 6.28318530717958f + 0.5f);
-        EXPECT_EQ(trace.bits[step] >> (binary_count + compass) & 1, value > 0.5f);
+        EXPECT_EQ(trace.channel_bits[step] >> (binary_count + compass) & 1, value > 0.5f);
     }
 }
 

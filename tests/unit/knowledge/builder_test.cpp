@@ -58,7 +58,7 @@ TEST(KnowledgeBuilder, follows_algorithm_1_on_a_lineage_of_three) {
 }
 
 TEST(KnowledgeBuilder, depends_on_the_order_of_individuals) {
-    // b lies between A and c: whoever comes first is the feature the others match or miss.
+    // b lies between A and c: the first of them becomes the feature that the others match or miss.
     Trace const A = trace_of({{0x000, 0.5f}, {0, 0.5f}}), b = trace_of({{0x003, 0.5f}, {0, 0.5f}}),
                 c = trace_of({{0x00F, 0.5f}, {0, 0.5f}});
     KnowledgeBuilder forward{two_steps, make_scan_index(two_steps)},

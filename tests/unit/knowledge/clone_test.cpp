@@ -48,11 +48,11 @@ Genome mild_controller() {
 KnowledgeBase hand_made(std::vector<double> values) {
     Trace trace;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        trace.bits.push_back(static_cast<std::uint16_t>(i == 0 ? 0 : 1u << (i - 1)));
+        trace.channel_bits.push_back(static_cast<std::uint16_t>(i == 0 ? 0 : 1u << (i - 1)));
         trace.values.insert(trace.values.end(), {0, 0, 0, i == 0 ? 0.0f : 1.0f, 0.5f, 1.0f});
     }
     std::vector<std::uint32_t> const counts(values.size(), 1);
-    return KnowledgeBase{{1, 1.83f}, {}, {trace.bits, trace.values, values, values, counts}};
+    return KnowledgeBase{{1, 1.83f}, {}, {trace.channel_bits, trace.values, values, values, counts}};
 }
 
 std::string complaint(KnowledgeBase const& base, CloneConfig const& config) {

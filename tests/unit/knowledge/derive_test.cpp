@@ -8,17 +8,14 @@
 #include <algorithm>
 
 using namespace lore;
-using lore::test::trace_of;
 
 namespace {
 
-KnowledgeBase base_of(std::initializer_list<test::Step> features, std::vector<double> values) {
-    Trace const trace = trace_of(features);
-    std::vector<std::uint32_t> const counts(values.size(), 3);
+KnowledgeBase base_of(std::initializer_list<test::Step> features, std::vector<double> const& values) {
     Provenance provenance;
     provenance.kind = "lineage";
     provenance.sources = {"runs/s1"};
-    return KnowledgeBase{{1, 1.83f}, provenance, {trace.bits, trace.values, values, values, counts}};
+    return test::base_of(features, values, 3, provenance);
 }
 
 KnowledgeBase const four = base_of({{0x000, 0.1f}, {0x01F, 0.2f}, {0x1E0, 0.3f}, {0x1FF, 0.4f}}, {2.0, 5.0, 0.5, 5.0});
@@ -54,12 +51,12 @@ TEST(Permute, gives_the_same_values_to_other_features) {
         Trace trace;
         std::vector<double> values;
         for (std::size_t i = 0; i < size; ++i) {
-            trace.bits.push_back(static_cast<std::uint16_t>(i));
+            trace.channel_bits.push_back(static_cast<std::uint16_t>(i));
             trace.values.insert(trace.values.end(), continuous_count, 0.5f);
             values.push_back(rng.below(4));   // many equal ones
         }
         KnowledgeBase const base{
-            {1, 1.83f}, {}, {trace.bits, trace.values, values, values, std::vector<std::uint32_t>(size, 1)}};
+            {1, 1.83f}, {}, {trace.channel_bits, trace.values, values, values, std::vector<std::uint32_t>(size, 1)}};
         KnowledgeBase const permuted = permute(base, static_cast<std::uint64_t>(round));
         std::vector<double> sorted = values_of(permuted);
         std::sort(sorted.begin(), sorted.end());

@@ -17,7 +17,7 @@ namespace {
 /// A trace near `original`: some bits flipped, some values moved, as if its controller had been mutated.
 Trace variant_of(Trace const& original, Stream& rng, double flips, double moves) {
     Trace trace = original;
-    for (std::uint16_t& word : trace.bits)
+    for (std::uint16_t& word : trace.channel_bits)
         if (rng.chance(flips)) word ^= static_cast<std::uint16_t>(1u << rng.below(binary_count));
     for (float& value : trace.values)
         if (rng.chance(moves)) value = std::clamp(value + static_cast<float>(rng.uniform(-0.5, 0.5)), 0.0f, 1.0f);
@@ -144,7 +144,8 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     KnowledgeConfig const config;
     Lives lives{6, 4, 4000};
     for (std::vector<Trace>* traces : {&lives.known, &lives.asked})
-        for (Trace& trace : *traces) std::fill(trace.bits.begin(), trace.bits.end(), std::uint16_t{0x7E00});
+        for (Trace& trace : *traces)
+            std::fill(trace.channel_bits.begin(), trace.channel_bits.end(), std::uint16_t{0x7E00});
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     for (Window const& window : windows_of_all(lives.known, config.window_length)) {
         scan->add(window);

@@ -5,20 +5,11 @@
 #include <gtest/gtest.h>
 
 using namespace lore;
+using lore::test::base_of;
 using lore::test::trace_of;
 
-namespace {
-
-Shaper base_of(std::initializer_list<test::Step> features, std::vector<double> values) {
-    Trace const trace = trace_of(features);
-    std::vector<std::uint32_t> const counts(values.size(), 1);
-    return Shaper{KnowledgeBase{{1, 1.83f}, {}, {trace.bits, trace.values, values, values, counts}}};
-}
-
-}   // namespace
-
 TEST(ValuesOf, are_those_of_the_matched_features_and_minus_one_where_none_matches) {
-    Shaper const shaper = base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {2.0, 5.0});
+    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {2.0, 5.0})};
     Trace const trace = trace_of({{0x01F, 0.5f}, {0x1FF, 0.5f}, {0x000, 0.5f}});
     EXPECT_EQ(values_of(shaper, windows_of(trace, 1)), (std::vector<double>{5, no_feature_value, 2}));
 }

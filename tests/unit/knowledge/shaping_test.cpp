@@ -10,18 +10,8 @@
 #include <thread>
 
 using namespace lore;
+using lore::test::base_of;
 using lore::test::trace_of;
-
-namespace {
-
-/// One-step features with bit patterns far from each other, and the values given.
-KnowledgeBase base_of(std::initializer_list<test::Step> features, std::vector<double> values) {
-    Trace const trace = trace_of(features);
-    std::vector<std::uint32_t> const counts(values.size(), 1);
-    return KnowledgeBase{{1, 1.83f}, {}, {trace.bits, trace.values, values, values, counts}};
-}
-
-}   // namespace
 
 TEST(Shaper, gives_the_largest_value_among_the_matched_features) {
     Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {2.0, 5.0, 7.0})};

@@ -3,7 +3,10 @@
 #include <lore/core/random.h>
 #include <lore/knowledge/knowledge_base.h>
 
+#include <cstdint>
 #include <initializer_list>
+#include <utility>
+#include <vector>
 
 namespace lore::test {
 
@@ -16,10 +19,18 @@ struct Step {
 inline Trace trace_of(std::initializer_list<Step> steps) {
     Trace trace;
     for (Step const& step : steps) {
-        trace.bits.push_back(step.bits);
+        trace.channel_bits.push_back(step.bits);
         trace.values.insert(trace.values.end(), continuous_count, step.level);
     }
     return trace;
+}
+
+/// One-step features and their values.
+inline KnowledgeBase base_of(std::initializer_list<Step> features, std::vector<double> const& values,
+                             std::uint32_t count = 1, Provenance provenance = {}) {
+    Trace const trace = trace_of(features);
+    std::vector<std::uint32_t> const counts(values.size(), count);
+    return KnowledgeBase{{1, 1.83f}, std::move(provenance), {trace.channel_bits, trace.values, values, values, counts}};
 }
 
 /// A trace that looks like a robot's: lights come and go, wheels mostly at their stops, ranges drift. `phrases` short
@@ -39,7 +50,7 @@ inline Trace lifelike_trace(Stream& rng, int steps) {
             value = value < 0 ? 0 : value > 1 ? 1 : value;
             trace.values.push_back(value);
         }
-        trace.bits.push_back(bits);
+        trace.channel_bits.push_back(bits);
     }
     return trace;
 }

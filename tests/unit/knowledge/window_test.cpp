@@ -12,8 +12,8 @@ TEST(WindowsOf, cuts_a_trace_without_overlap_and_leaves_out_an_unfilled_end) {
     Trace const trace = trace_of({{1, 0.1f}, {2, 0.2f}, {3, 0.3f}, {4, 0.4f}, {5, 0.5f}});
     std::vector<Window> const windows = windows_of(trace, 2);
     ASSERT_EQ(windows.size(), 2u);
-    EXPECT_EQ(windows[0].bits.data(), trace.bits.data());
-    EXPECT_EQ(windows[1].bits.data(), trace.bits.data() + 2);
+    EXPECT_EQ(windows[0].bits.data(), trace.channel_bits.data());
+    EXPECT_EQ(windows[1].bits.data(), trace.channel_bits.data() + 2);
     EXPECT_EQ(windows[1].bits.size(), 2u);
     EXPECT_EQ(windows[1].values.data(), trace.values.data() + 12);
     EXPECT_EQ(windows[1].values.size(), 12u);

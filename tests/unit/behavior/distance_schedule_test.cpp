@@ -1,4 +1,4 @@
-#include <lore/behavior/diversity.h>
+#include <lore/behavior/distance_schedule.h>
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 using namespace lore;
 
 TEST(DistanceAt, changes_only_at_the_start_of_a_period) {
-    DiversityConfig const config;
+    DistanceSchedule const config;
     for (std::uint64_t seed = 0; seed < 20; ++seed)
         for (int g = 0; g < 500; ++g) EXPECT_EQ(distance_at(seed, g, config), distance_at(seed, g / 50 * 50, config));
 }
 
 TEST(DistanceAt, draws_every_distance_equally_often_with_repeats) {
-    DiversityConfig const config;
+    DistanceSchedule const config;
     std::array<int, distance_kinds> seen{};
     int repeats = 0;
     for (int draw = 0; draw < 8000; ++draw) {
@@ -25,7 +25,7 @@ TEST(DistanceAt, draws_every_distance_equally_often_with_repeats) {
 }
 
 TEST(DistanceAt, draws_among_the_configured_distances_alone) {
-    DiversityConfig config;
+    DistanceSchedule config;
     config.period = 1;
     config.distances = {DistanceKind::entropy};
     for (int g = 0; g < 20; ++g) EXPECT_EQ(distance_at(9, g, config), DistanceKind::entropy);
