@@ -1,5 +1,6 @@
 #include <lore/archive/atomic_file.h>
 
+#include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/core/error.h>
@@ -23,10 +24,7 @@ std::string text(std::string const& path) {
 }
 
 std::string failure_of_writing(std::string const& path, std::string_view content) {
-    try {
-        write_file_atomically(path, content);
-    } catch (Error const& error) { return error.what(); }
-    return "";
+    return test::complaint_of([&] { write_file_atomically(path, content); });
 }
 
 int entries(std::string const& directory) {

@@ -1,5 +1,6 @@
 #include <lore/archive/knowledge_file.h>
 
+#include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
@@ -105,10 +106,7 @@ std::string refusal(Scratch const& scratch, Bytes const& file) {
     std::string const path = scratch.file("some.lorekb");
     std::ofstream{path, std::ios::binary}.write(reinterpret_cast<char const*>(file.data()),
                                                 static_cast<std::streamsize>(file.size()));
-    try {
-        read_knowledge_base(path);
-    } catch (Error const& error) { return error.what(); }
-    return "";
+    return test::complaint_of([&] { read_knowledge_base(path); });
 }
 
 Bytes payload_of(Scratch const& scratch, KnowledgeBase const& base) {
@@ -117,7 +115,7 @@ Bytes payload_of(Scratch const& scratch, KnowledgeBase const& base) {
     return read_container(path, FileKind::knowledge_base);
 }
 
-/// The error of a file that is whole but whose payload was made by somebody else.
+/// The error of a file that is whole but whose payload was forged.
 std::string refusal_of_payload(Scratch const& scratch, Bytes const& payload) {
     return refusal(scratch, seal(FileKind::knowledge_base, payload, Packing::plain));
 }

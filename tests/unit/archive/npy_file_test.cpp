@@ -1,5 +1,6 @@
 #include <lore/archive/npy_file.h>
 
+#include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
@@ -33,10 +34,7 @@ std::string npy(std::string const& dictionary, std::vector<T> const& values) {
 
 std::string refusal(Scratch const& scratch, std::string const& content) {
     std::ofstream{scratch.file("x.npy"), std::ios::binary} << content;
-    try {
-        read_npy(scratch.file("x.npy"));
-    } catch (Error const& error) { return error.what(); }
-    return "";
+    return test::complaint_of([&] { read_npy(scratch.file("x.npy")); });
 }
 
 }   // namespace

@@ -4,6 +4,7 @@
 #include <lore/core/error.h>
 
 #include "arena_support.h"
+#include <support/complaint.h>
 #include <support/scratch.h>
 
 #include <gtest/gtest.h>
@@ -15,10 +16,8 @@ namespace {
 
 /// The message with which the changed built-in arena is refused.
 std::string refusal(std::string const& from, std::string const& to, std::string const& task = "source") {
-    try {
-        parse_arena(tests::replaced(arena_text("collectball"), from, to), "changed.toml", task);
-    } catch (UsageError const& error) { return error.what(); }
-    return "accepted";
+    return test::complaint_of<UsageError>(
+        [&] { parse_arena(tests::replaced(arena_text("collectball"), from, to), "changed.toml", task); });
 }
 
 void expect_refused(std::string const& from, std::string const& to, std::string const& part) {

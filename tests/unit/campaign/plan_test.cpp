@@ -5,6 +5,7 @@
 #include <lore/core/error.h>
 
 #include "campaign_fixture.h"
+#include "support/complaint.h"
 
 #include <campaign/knowledge_kinds.h>
 #include <campaign/treatment_inputs.h>
@@ -22,10 +23,7 @@ protected:
         std::string text = test::small_campaign;
         text.replace(text.find(from), from.size(), to);
         write("campaign.toml", text);
-        try {
-            plan();
-        } catch (UsageError const& error) { return error.what(); }
-        return "";
+        return test::complaint_of<UsageError>([&] { plan(); });
     }
 };
 

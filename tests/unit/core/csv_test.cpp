@@ -1,21 +1,17 @@
 #include <lore/core/csv.h>
 
+#include "support/complaint.h"
+
 #include <lore/core/error.h>
 
 #include <gtest/gtest.h>
 
 using namespace lore;
+using lore::test::complaint_of;
 
 namespace {
 
 CsvTable table(std::string text) { return CsvTable{"t.csv", std::move(text), "Mend it."}; }
-
-std::string refusal(auto const& read) {
-    try {
-        read();
-    } catch (Error const& error) { return error.what(); }
-    return "";
-}
 
 std::vector<std::string> fields_of(std::string_view line) {
     std::vector<std::string> fields;
@@ -43,21 +39,23 @@ TEST(CsvTable, gives_fields_by_row_and_column_without_spaces_empty_lines_and_car
 
 TEST(CsvTable, names_file_line_and_column_of_what_is_wrong) {
     CsvTable const read = table("a,b\n1,2\n\n3,x\n");
-    EXPECT_EQ(refusal([&] { read.number<int>(1, 1); }), "cannot read t.csv, line 4, column b ('x' is no whole number). "
-                                                        "Mend it.");
-    EXPECT_EQ(refusal([&] { read.number(1, 0, 0.0, 2.0); }), "cannot read t.csv, line 4, column a (3 is outside 0 .. "
-                                                             "2). Mend it.");
-    EXPECT_EQ(refusal([] { table("a,b\n1,2\n3\n"); }),
+    EXPECT_EQ(complaint_of([&] { read.number<int>(1, 1); }),
+              "cannot read t.csv, line 4, column b ('x' is no whole number). "
+              "Mend it.");
+    EXPECT_EQ(complaint_of([&] { read.number(1, 0, 0.0, 2.0); }),
+              "cannot read t.csv, line 4, column a (3 is outside 0 .. "
+              "2). Mend it.");
+    EXPECT_EQ(complaint_of([] { table("a,b\n1,2\n3\n"); }),
               "cannot read t.csv (line 3 has 1 fields, the header 2). Mend it.");
 }
 
 TEST(CsvTable, refuses_what_is_no_table_and_columns_that_are_missing_or_there_twice) {
-    EXPECT_NE(refusal([] { table(""); }), "");
-    EXPECT_NE(refusal([] { table("a,a\n1,2\n").column("a"); }), "");
-    EXPECT_EQ(refusal([] { table("seed,run\n").column("sead"); }), "cannot read t.csv (the header has no column "
-                                                                   "'sead', only 'seed'). Mend it.");
-    EXPECT_NE(refusal([] { CsvTable::read("/", "Mend it."); }), "") << "a directory";
-    EXPECT_NE(refusal([] { CsvTable::read("/nowhere.csv", "Mend it."); }), "");
+    EXPECT_NE(complaint_of([] { table(""); }), "");
+    EXPECT_NE(complaint_of([] { table("a,a\n1,2\n").column("a"); }), "");
+    EXPECT_EQ(complaint_of([] { table("seed,run\n").column("sead"); }), "cannot read t.csv (the header has no column "
+                                                                        "'sead', only 'seed'). Mend it.");
+    EXPECT_NE(complaint_of([] { CsvTable::read("/", "Mend it."); }), "") << "a directory";
+    EXPECT_NE(complaint_of([] { CsvTable::read("/nowhere.csv", "Mend it."); }), "");
 }
 
 TEST(CsvTable, refuses_numbers_that_are_not_finite_or_do_not_fit) {

@@ -1,5 +1,6 @@
 #include <lore/experiment/config.h>
 
+#include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
@@ -17,10 +18,7 @@ ExperimentConfig parse(std::string const& text, std::vector<std::string> const& 
 }
 
 std::string complaint(std::string const& text, std::vector<std::string> const& overrides = {}) {
-    try {
-        parse(text, overrides);
-    } catch (UsageError const& error) { return error.what(); }
-    return "";
+    return test::complaint_of<UsageError>([&] { parse(text, overrides); });
 }
 
 }   // namespace
