@@ -11,25 +11,25 @@ namespace lore {
 /// Processes of one name among the descendants of a launcher.
 struct Ranks {
     int living = 0;
-    int dead = 0;   ///< zombies: their parent has not asked for them yet
+    int dead = 0;   ///< zombies: their parent has not waited for them yet
 };
 
 /// Descendants of `launcher` that run the program of this name (without its directory, at most 15 characters),
-/// whichever processes stand between them. Source: /proc/PID/task/*/children; none where the kernel does not have it.
+/// at any depth. Source: /proc/PID/task/*/children; none where the kernel does not have it.
 Ranks ranks_of(pid_t launcher, std::string_view program);
 
 /// Notices an MPI launcher that outlives its ranks. Open MPI's mpirun may wait for ever in PMIx_server_finalize after
 /// its ranks were killed.
 ///
-/// A launcher hangs if it has had a rank and then none for `patience`. One that has not started any yet does not, and
-/// neither does one whose ranks are not its descendants (those of a batch system).
+/// A launcher hangs if it has had a rank and then none for `patience`. A launcher that has not started a rank yet does
+/// not hang, nor does one whose ranks are not its descendants (those of a batch system).
 class LauncherWatch {
 public:
     using Clock = std::chrono::steady_clock;
     explicit LauncherWatch(std::chrono::duration<double> patience) : patience_(patience) {}
 
-    /// Takes what is seen now, and returns whether the launcher hangs. To be called about once a second: ranks that
-    /// live for a shorter time, and that the launcher has asked for, are not noticed.
+    /// Takes the ranks as they are now, and returns whether the launcher hangs. To be called about once a second: a
+    /// rank that lives for a shorter time, and that the launcher has waited for, is not noticed.
     bool hangs(Ranks, Clock::time_point now);
 
 private:

@@ -5,7 +5,7 @@
 namespace lore {
 
 Birth::~Birth() {
-    // Releases the ancestors that only this lineage holds one after the other. Otherwise each would be released from
+    // Releases, one after the other, the ancestors that only this lineage holds. Otherwise each would be released from
     // within its child's destructor, thousands deep.
     std::shared_ptr<Birth const> ancestor = std::move(parent);
     // No other pointer holds this ancestor, so no reader sees its parent taken away. Births are made non-const (breed,

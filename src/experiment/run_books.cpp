@@ -16,8 +16,9 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
     return std::chrono::duration<double>(to - from).count();
 }
 
-/// The run's config.toml is about to be written in today's words, which a digest of the former kind would not fit. Both
-/// checkpoints get the present one before, so that either serves whenever the run is killed.
+/// Gives both checkpoints a digest of the present kind, before this version writes the run's config.toml anew. A former
+/// digest is taken over the text of config.toml and would no longer fit; with both renewed, the run can be killed at
+/// any time.
 void renew_digest(RunSetup const& setup) {
     Checkpoint renewed = *setup.checkpoint;
     renewed.config_digest = setup.digest;

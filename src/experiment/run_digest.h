@@ -12,8 +12,8 @@ namespace lore {
 /// keeps it, and is only continued where it is the same.
 std::uint64_t digest_of(WorkOrder const&, std::uint64_t seed, std::string_view founders_checksum = "");
 
-/// The same as checkpoints have it that were written up to commit e8a0ef9: of the configuration as it was rendered
-/// then, descriptions included. Only the run's own config.toml still holds these words, so its text is asked for.
+/// The digest of checkpoints that were written up to commit e8a0ef9: over the configuration as it was rendered then,
+/// descriptions included. `config_text` is the run's own config.toml, because no other file still has that text.
 std::uint64_t former_digest_of(std::string_view config_text, WorkOrder const&, std::uint64_t seed);
 
 }   // namespace lore

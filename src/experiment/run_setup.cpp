@@ -52,7 +52,7 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     }
 }
 
-/// A run's configuration is the last of what its start writes, and so tells that the rest is there.
+/// A start writes the configuration last, so the other files are there if it is.
 bool holds_a_run(RunSetup const& setup) { return fs::exists(setup.file(run_file::config)); }
 
 /// What a start and a resumption have in common: the settings fit each other, the checkpoint and the knowledge base.

@@ -73,7 +73,7 @@ std::string verify_manifest(std::string const& path) {
     return fmt::format("manifest of a run ({}), {} outputs as listed", name(manifest.status), manifest.outputs.size());
 }
 
-/// Which of its tasks a run's arena serves stands in the configuration beside it.
+/// An arena file has several tasks; the configuration beside it says which of them the run is on.
 std::string verify_arena(std::string const& path) {
     std::filesystem::path const config = std::filesystem::path{path}.replace_filename(run_file::config);
     if (!std::filesystem::exists(config))

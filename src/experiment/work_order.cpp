@@ -91,7 +91,7 @@ std::vector<std::string> give_order(Session const& session, WorkOrder const& ord
         if (answer.starts_with(ready)) hosts.push_back(answer.substr(ready.size()));
         else if (complaint.empty()) complaint = answer;
     }
-    // An empty word means work, any other go home.
+    // Empty: the other ranks start to work. Anything else: they end, because a rank has failed.
     session.world().broadcast(complaint.empty() ? Bytes{} : Bytes(1));
     if (!complaint.empty()) throw Error("another rank cannot work", complaint, "");
     return hosts;

@@ -140,8 +140,8 @@ private:
                   {.stroke = "#555555", .width = 1.2});
     }
 
-    /// The way from one step to another, both included, in as few points as the eye needs: from each point straight on
-    /// to the farthest that leaves no step between them beside the line. The document is half as large for it.
+    /// The way from one step to another, both included, in few points: a straight line leads from each to the farthest
+    /// point for which all steps between lie on the line, as far as can be seen. This halves the document.
     std::vector<SvgPoint> path(std::size_t from, std::size_t to) const {
         auto const at = [&](std::size_t step) { return place(picture_.poses[step].x, picture_.poses[step].y); };
         std::vector<SvgPoint> points{at(from)};

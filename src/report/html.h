@@ -14,9 +14,9 @@ std::string escaped(std::string_view text);
 /// What fills a template's places, by name.
 using Places = std::map<std::string, std::string, std::less<>>;
 
-/// A block of page.html.in with its places {{name}} filled. A place alone on its line takes the whole line, so that
-/// what fills it ends with its own line's end, or leaves nothing behind. Precondition: there is such a block, and all
-/// of its places are given.
+/// A block of page.html.in with its places {{name}} filled. A place alone on its line takes the whole line: its
+/// text ends with a line's end, or is empty and leaves no line. Precondition: there is such a block, and all of its
+/// places are given.
 std::string filled(std::string_view block, Places const&);
 
 /// What a table's cell shows, and what its column is sorted by where that differs.

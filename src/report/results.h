@@ -76,8 +76,8 @@ Results collect_results(CampaignPlan const&, CampaignDirectory const&);
 
 /// final.csv, runs.csv, curves.csv, population.csv, kbs.csv (docs/manual/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
-/// These and what the step "replay" wrote. Needs final.csv and curves.csv; what the others would tell is left out where
-/// they are missing. Throws Error.
+/// Reads these and the files of the step "replay". final.csv and curves.csv must be there; parts of Results whose file
+/// is missing stay empty. Throws Error.
 Results read_results(CampaignDirectory const&);
 
 }   // namespace lore

@@ -17,12 +17,12 @@ struct EpisodeConfig {
 
 /// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
 ///
-/// Per step: one word with the binary channels and a float for each continuous one. 26 bytes a step for the paper's
-/// channels, 104 kB an evaluation of 4000 steps.
+/// Per step: a word with one bit for every channel, and a float for each continuous one. 26 bytes a step for the
+/// paper's channels, 104 kB an evaluation of 4000 steps.
 struct Trace {
-    /// The lowest binary_count bits: the binary channels in the order of binary_channels; then the continuous channels
-    /// in the order of continuous_channels, thresholded for the Hamming descriptor (range sensor nearer than half its
-    /// range: value > 0.5; effector > 0.5). Bits from channel_count on are 0.
+    /// Bits 0 .. binary_count - 1: the binary channels, in the order of binary_channels. Bits binary_count ..
+    /// channel_count - 1: whether a continuous channel is above 0.5 (a range sensor: nearer than half its range), in
+    /// the order of continuous_channels; only the Hamming descriptor reads these. Higher bits are 0.
     std::vector<std::uint16_t> channel_bits;
     /// [step][continuous_count], continuous_channels order.
     std::vector<float> values;
