@@ -11,6 +11,17 @@
 
 namespace lore {
 
+namespace {
+
+template <class Number>
+void check_range(TomlTable const& table, std::string_view key, Number value, Number least, Number most) {
+    if (value < least || value > most)
+        table.fail(key, fmt::format("{} is outside {} .. {}", value, least, most),
+                   fmt::format("Take a number from {} to {}.", least, most));
+}
+
+}   // namespace
+
 /// One table of a document. `document` keeps the parsed whole alive.
 struct TomlTable::Node {
     std::shared_ptr<toml::table const> document;
@@ -67,9 +78,7 @@ std::optional<double> TomlTable::number(std::string_view key, double least, doub
     std::optional<double> const value = node->is_number() ? node->value<double>() : std::nullopt;
     if (!value) fail(key, "a number is expected");
     if (!std::isfinite(*value)) fail(key, "the value is not finite");
-    if (*value < least || *value > most)
-        fail(key, fmt::format("{} is outside {} .. {}", *value, least, most),
-             fmt::format("Take a number from {} to {}.", least, most));
+    check_range(*this, key, *value, least, most);
     return value;
 }
 
@@ -78,9 +87,7 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
     if (node == nullptr) return std::nullopt;
     std::optional<std::int64_t> const value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
     if (!value) fail(key, "a whole number is expected");
-    if (*value < least || *value > most)
-        fail(key, fmt::format("{} is outside {} .. {}", *value, least, most),
-             fmt::format("Take a number from {} to {}.", least, most));
+    check_range(*this, key, *value, least, most);
     return value;
 }
 

@@ -1,6 +1,7 @@
 #include <lore/archive/messages.h>
 
 #include "archive/random_population.h"
+#include "support/pointers.h"
 
 #include <lore/core/error.h>
 #include <lore/network/mutation.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 
 using namespace lore;
+using lore::test::pointers_to;
 
 namespace {
 
@@ -24,15 +26,9 @@ std::vector<Genome> mutated_genomes(int count) {
     return genomes;
 }
 
-std::vector<Genome const*> pointers(std::vector<Genome> const& genomes) {
-    std::vector<Genome const*> all;
-    for (Genome const& genome : genomes) all.push_back(&genome);
-    return all;
-}
-
 std::vector<Delivery> deliveries_of(std::vector<Genome> const& genomes, int steps) {
     std::vector<Delivery> deliveries;
-    for (Evaluation& evaluation : PretendedEvaluator{steps}.evaluate(pointers(genomes)))
+    for (Evaluation& evaluation : PretendedEvaluator{steps}.evaluate(pointers_to(genomes)))
         deliveries.push_back({1000 - static_cast<int>(deliveries.size()), std::move(evaluation)});
     return deliveries;
 }
@@ -42,7 +38,7 @@ std::vector<Delivery> deliveries_of(std::vector<Genome> const& genomes, int step
 TEST(Messages, carry_genomes_and_evaluations_unchanged) {
     for (int count : {0, 1, 2, 40}) {
         auto const genomes = mutated_genomes(count);
-        EXPECT_EQ(unpack_genomes(pack_genomes(pointers(genomes))), genomes);
+        EXPECT_EQ(unpack_genomes(pack_genomes(pointers_to(genomes))), genomes);
         auto const deliveries = deliveries_of(genomes, 4000);
         Bytes const bytes = pack_deliveries(deliveries);
         EXPECT_EQ(unpack_deliveries(bytes), deliveries);
@@ -68,7 +64,7 @@ TEST(Messages, carry_bits_that_repeat_in_little_space) {
 
 TEST(Messages, carry_rows_of_distances) {
     auto const genomes = mutated_genomes(12);
-    auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers(genomes));
+    auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers_to(genomes));
     std::vector<Descriptors const*> pool;
     for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
     DistanceMatrix expected{12}, here{12}, there{12};
@@ -84,7 +80,7 @@ TEST(Messages, carry_rows_of_distances) {
 
 TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
     auto const genomes = mutated_genomes(3);
-    Bytes const request = pack_genomes(pointers(genomes));
+    Bytes const request = pack_genomes(pointers_to(genomes));
     Bytes const result = pack_deliveries(deliveries_of(genomes, 100));
     for (std::size_t length = 0; length < request.size(); ++length)
         EXPECT_THROW(unpack_genomes(std::span{request}.first(length)), Error);

@@ -1,4 +1,5 @@
 #include "random_descriptors.h"
+#include "support/pointers.h"
 
 #include <lore/behavior/distance_matrix.h>
 #include <lore/core/isa.h>
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 using namespace lore;
+using lore::test::pointers_to;
 
 namespace {
 

@@ -59,10 +59,4 @@ inline Descriptors random_behavior(Stream& rng, int steps, int balls = 8) {
     return d;
 }
 
-inline std::vector<Descriptors const*> pointers_to(std::vector<Descriptors> const& pool) {
-    std::vector<Descriptors const*> pointers;
-    for (Descriptors const& d : pool) pointers.push_back(&d);
-    return pointers;
-}
-
 }   // namespace lore

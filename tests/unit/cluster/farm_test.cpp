@@ -2,12 +2,14 @@
 
 #include "archive/random_population.h"
 #include "share.h"
+#include "support/pointers.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 using namespace lore;
+using lore::test::pointers_to;
 
 namespace {
 
@@ -41,8 +43,7 @@ TEST(Farm, gives_evaluations_in_the_order_of_the_request) {
     Served served;
     for (int count : {0, 1, 2, 3, 7, 16, 17, 64, 200, 403}) {
         auto const genomes = founders(count, static_cast<std::uint32_t>(count));
-        std::vector<Genome const*> pointers;
-        for (Genome const& genome : genomes) pointers.push_back(&genome);
+        auto const pointers = pointers_to(genomes);
         EXPECT_EQ(served.farm.evaluator().evaluate(pointers), evaluate_batch(context(), pointers)) << count;
     }
 }
@@ -59,8 +60,7 @@ TEST(ShareOfAWorker, is_even_in_half_sets_and_leaves_the_rest_to_rank_0) {
 TEST(Farm, notifies_of_each_evaluation_once_where_others_are_at_work) {
     Served served;
     auto const genomes = founders(200, 0);
-    std::vector<Genome const*> pointers;
-    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    auto const pointers = pointers_to(genomes);
     struct : CompletionListener {
         std::vector<Evaluation> expected;
         std::vector<int> notified;
@@ -78,8 +78,7 @@ TEST(Farm, notifies_of_each_evaluation_once_where_others_are_at_work) {
 TEST(Farm, measures_every_distance_as_one_rank_does) {
     Served served;
     auto const genomes = founders(120, 0);
-    std::vector<Genome const*> pointers;
-    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    auto const pointers = pointers_to(genomes);
     auto const evaluations = evaluate_batch(context(), pointers);
     std::vector<Descriptors const*> pool;
     for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
@@ -115,8 +114,7 @@ TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
 TEST(Farm, accounts_for_the_time_of_every_rank) {
     Served served;
     auto const genomes = founders(64, 0);
-    std::vector<Genome const*> pointers;
-    for (Genome const& genome : genomes) pointers.push_back(&genome);
+    auto const pointers = pointers_to(genomes);
     served.farm.evaluator().evaluate(pointers);
     auto const times = served.farm.stop();
     ASSERT_EQ(times.size(), static_cast<std::size_t>(session->size()));

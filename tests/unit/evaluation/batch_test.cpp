@@ -1,5 +1,7 @@
 #include <lore/evaluation/evaluation_queue.h>
 
+#include "support/pointers.h"
+
 #include <lore/core/isa.h>
 #include <lore/knowledge/builder.h>
 #include <lore/network/mutation.h>
@@ -10,6 +12,7 @@
 #include <set>
 
 using namespace lore;
+using lore::test::pointers_to;
 
 namespace {
 
@@ -71,12 +74,6 @@ std::vector<Genome> population(int count, std::uint32_t seed) {
     return genomes;
 }
 
-std::vector<Genome const*> pointers(std::vector<Genome> const& genomes) {
-    std::vector<Genome const*> list;
-    for (Genome const& genome : genomes) list.push_back(&genome);
-    return list;
-}
-
 /// Robots that get about and bring balls home: the best of some rounds of selection among wanderers, by the fast path,
 /// which is judged by what it says of them afterwards.
 std::vector<Genome> skilled(std::string const& task, int count) {
@@ -87,7 +84,7 @@ std::vector<Genome> skilled(std::string const& task, int count) {
         genomes.push_back(wanderer(rng));
     }
     for (std::uint32_t round = 0; round < 6; ++round) {
-        auto const evaluations = evaluate_batch(context, pointers(genomes));
+        auto const evaluations = evaluate_batch(context, pointers_to(genomes));
         std::vector<std::pair<int, std::size_t>> scores;
         for (std::size_t i = 0; i < genomes.size(); ++i) {
             Descriptors const& d = evaluations[i].descriptors;
@@ -137,7 +134,7 @@ void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> 
     Isa const before = active_isa();
     for (Isa isa : usable_isas()) {
         use_isa(isa);
-        auto const fast = evaluate_batch(context, pointers(genomes));
+        auto const fast = evaluate_batch(context, pointers_to(genomes));
         ASSERT_EQ(fast.size(), plain.size());
         for (std::size_t i = 0; i < fast.size(); ++i) {
             SCOPED_TRACE("individual " + std::to_string(i) + ", " + std::string{name(isa)});
@@ -193,7 +190,7 @@ TEST_P(EvaluateBatch, serves_every_batch_size) {
     for (Isa isa : usable_isas()) {
         use_isa(isa);
         for (std::size_t size = 0; size <= genomes.size(); ++size) {
-            auto const all = pointers(genomes);
+            auto const all = pointers_to(genomes);
             auto const fast = evaluate_batch(context, std::span{all}.last(size));
             ASSERT_EQ(fast.size(), size);
             for (std::size_t i = 0; i < size; ++i)

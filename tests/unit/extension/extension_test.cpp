@@ -1,6 +1,7 @@
 // Of a copy of Lore with a compass as the 13th sensor and the fifth distance, `delivery` (extend.py).
 #include "arena/arena_support.h"
 #include "behavior/random_descriptors.h"
+#include "support/pointers.h"
 
 #include <lore/archive/messages.h>
 #include <lore/core/error.h>
@@ -21,6 +22,7 @@ std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int, int)
 }   // namespace lore
 
 using namespace lore;
+using lore::test::pointers_to;
 
 namespace {
 
@@ -56,9 +58,7 @@ std::vector<Trace> traces_of(std::vector<Genome> const& genomes, int steps) {
 }
 
 std::vector<Evaluation> evaluations_of(EvaluationContext const& context, std::vector<Genome> const& genomes) {
-    std::vector<Genome const*> pointers;
-    for (Genome const& genome : genomes) pointers.push_back(&genome);
-    return evaluate_batch(context, pointers);
+    return evaluate_batch(context, pointers_to(genomes));
 }
 
 }   // namespace
