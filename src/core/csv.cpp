@@ -17,11 +17,33 @@ std::string_view trimmed(std::string_view field) {
     return field;
 }
 
-/// Appends the line's fields; returns how many.
-std::size_t split(std::string_view line, std::vector<std::string_view>& fields) {
-    std::size_t const before = fields.size();
-    for (CsvFields of_line{line}; auto const field = of_line.next();) fields.push_back(trimmed(*field));
-    return fields.size() - before;
+Error error_of(std::string const& path, std::string_view reason, std::string_view remedy) {
+    return Error(fmt::format("cannot read {}", path), reason, remedy);
+}
+
+/// Calls header(field) for each field of the header, field(field) for those of the rows, row(line number) after each.
+template <class Header, class Field, class Row>
+void read_lines(std::string const& path, std::string_view text, std::string_view remedy, Header const& header,
+                Field const& field, Row const& row) {
+    std::size_t columns = 0;
+    for (int number = 1; !text.empty(); ++number) {
+        std::size_t const end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        CsvFields fields{line};
+        if (number == 1) {
+            for (; auto const next = fields.next(); ++columns) header(trimmed(*next));
+            continue;
+        }
+        if (trimmed(line).empty()) continue;
+        std::size_t count = 0;
+        for (; auto const next = fields.next(); ++count) field(trimmed(*next));
+        if (count != columns)
+            throw error_of(path, fmt::format("line {} has {} fields, the header {}", number, count, columns), remedy);
+        row(number);
+    }
+    if (columns == 0) throw error_of(path, "it is empty", remedy);
 }
 
 }   // namespace
@@ -41,23 +63,9 @@ CsvTable CsvTable::read(std::string const& path, std::string_view remedy) {
 
 CsvTable::CsvTable(std::string path, std::string text, std::string_view remedy)
     : path_(std::move(path)), remedy_(remedy), text_(std::make_shared<std::string const>(std::move(text))) {
-    std::string_view rest = *text_;
-    for (int number = 1; !rest.empty(); ++number) {
-        std::size_t const end = std::min(rest.find('\n'), rest.size());
-        std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        if (names_.empty()) {
-            split(line, names_);
-            continue;
-        }
-        if (trimmed(line).empty()) continue;
-        std::size_t const count = split(line, fields_);
-        if (count != names_.size())
-            refuse(fmt::format("line {} has {} fields, the header {}", number, count, names_.size()));
-        lines_.push_back(number);
-    }
-    if (names_.empty()) refuse("it is empty");
+    read_lines(
+        path_, *text_, remedy_, [&](std::string_view name) { names_.push_back(name); },
+        [&](std::string_view field) { fields_.push_back(field); }, [&](int number) { lines_.push_back(number); });
 }
 
 bool CsvTable::has(std::string_view name) const {
@@ -76,9 +84,7 @@ std::size_t CsvTable::column(std::string_view name) const {
     return static_cast<std::size_t>(found - names_.begin());
 }
 
-void CsvTable::refuse(std::string_view reason) const {
-    throw Error(fmt::format("cannot read {}", path_), reason, remedy_);
-}
+void CsvTable::refuse(std::string_view reason) const { throw error_of(path_, reason, remedy_); }
 
 void CsvTable::refuse(std::size_t row, std::size_t column, std::string_view reason) const {
     throw Error(fmt::format("cannot read {}, line {}, column {}", path_, lines_[row], names_[column]), reason, remedy_);
@@ -90,6 +96,13 @@ void CsvTable::refuse_field(std::size_t row, std::size_t column, std::string_vie
 
 void CsvTable::refuse_range(std::size_t row, std::size_t column, std::string_view least, std::string_view most) const {
     refuse(row, column, fmt::format("{} is outside {} .. {}", text(row, column).substr(0, 30), least, most));
+}
+
+std::size_t count_csv_rows(std::string const& path, std::string_view text, std::string_view remedy) {
+    std::size_t rows = 0;
+    auto const nothing = [](std::string_view) {};
+    read_lines(path, text, remedy, nothing, nothing, [&](int) { ++rows; });
+    return rows;
 }
 
 }   // namespace lore

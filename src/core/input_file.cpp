@@ -24,18 +24,18 @@ constexpr std::size_t first_piece = 4096;   ///< the first read of a stream
 
 /// A UsageError where another name would have been right; everything else is the system's failure.
 [[noreturn]] void fail_to_open(std::string const& path, int error_number) {
-    auto const refuse = [&](std::string_view remedy) {
-        throw UsageError(fmt::format("cannot read {}", path), std::strerror(error_number), remedy);
+    auto const refusal = [&](std::string_view remedy) {
+        return UsageError(fmt::format("cannot read {}", path), std::strerror(error_number), remedy);
     };
     switch (error_number) {
     case ENOENT:
     case ENOTDIR:
     case EISDIR:
     case ELOOP:
-    case ENAMETOOLONG: refuse("Check the path.");
+    case ENAMETOOLONG: throw refusal("Check the path.");
     case EACCES:
-    case EPERM: refuse("Change its permissions.");
-    case ENXIO: refuse("A socket is no file; name one.");
+    case EPERM: throw refusal("Change its permissions.");
+    case ENXIO: throw refusal("A socket is no file; name one.");
     default: throw file_error("read", path, error_number);
     }
 }

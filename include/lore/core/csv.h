@@ -76,4 +76,7 @@ private:
     std::vector<int> lines_;   ///< number of each row's line, from 1
 };
 
+/// How many rows such a text has. Throws Error as CsvTable does, but keeps no field: for tables of any size.
+std::size_t count_csv_rows(std::string const& path, std::string_view text, std::string_view remedy);
+
 }   // namespace lore

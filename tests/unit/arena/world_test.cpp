@@ -77,7 +77,7 @@ TEST(Act, scores_a_ball_released_within_the_basket_and_loses_it_elsewhere) {
     WorldState lost = world;
     act(arena, outside, let_go, lost);
     EXPECT_EQ(lost.collected, 0);
-    EXPECT_EQ(lost.balls, 255 & ~16) << "gone either way";
+    EXPECT_EQ(lost.balls_mask, 255 & ~16) << "gone either way";
     EXPECT_EQ(lost.released[4], (Point{outside.x, outside.y}));
     act(arena, inside, let_go, world);
     EXPECT_EQ(world.collected, 1);

@@ -110,8 +110,8 @@ TEST(MeasureRows, equals_the_definition_where_behaviors_are_alike) {
             std::size_t const turn = rng.below(80);
             std::copy(other.path.begin() + static_cast<std::ptrdiff_t>(turn), other.path.end(),
                       child.path.begin() + static_cast<std::ptrdiff_t>(turn));
-            std::copy(other.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50), other.bits.end(),
-                      child.bits.begin() + static_cast<std::ptrdiff_t>(turn * 50));
+            std::copy(other.channel_bits.begin() + static_cast<std::ptrdiff_t>(turn * 50), other.channel_bits.end(),
+                      child.channel_bits.begin() + static_cast<std::ptrdiff_t>(turn * 50));
         }
         pool.push_back(std::move(child));
     }

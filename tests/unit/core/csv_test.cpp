@@ -49,6 +49,15 @@ TEST(CsvTable, names_file_line_and_column_of_what_is_wrong) {
               "cannot read t.csv (line 3 has 1 fields, the header 2). Mend it.");
 }
 
+TEST(CsvRows, are_counted_by_the_rules_of_a_table) {
+    EXPECT_EQ(count_csv_rows("t.csv", "a,b\n1,2\r\n\n3,4", ""), 2u);
+    EXPECT_EQ(count_csv_rows("t.csv", "a,b\n", ""), 0u);
+    EXPECT_EQ(complaint_of([] { count_csv_rows("t.csv", "a,b\n1\n", "Mend it."); }),
+              "cannot read t.csv (line 2 has 1 fields, the header 2). Mend it.");
+    EXPECT_EQ(complaint_of([] { count_csv_rows("t.csv", "", "Mend it."); }),
+              "cannot read t.csv (it is empty). Mend it.");
+}
+
 TEST(CsvTable, refuses_what_is_no_table_and_columns_that_are_missing_or_there_twice) {
     EXPECT_NE(complaint_of([] { table(""); }), "");
     EXPECT_NE(complaint_of([] { table("a,a\n1,2\n").column("a"); }), "");
