@@ -90,7 +90,7 @@ TEST(Episode, is_a_prefix_when_it_is_shorter) {
     shorter.steps = 500;
     Trace const part = record_episode(arena, network, shorter), whole = record_episode(arena, network, {});
     ASSERT_EQ(part.steps(), 500);
-    EXPECT_TRUE(std::equal(part.bits.begin(), part.bits.end(), whole.bits.begin()));
+    EXPECT_TRUE(std::equal(part.channel_bits.begin(), part.channel_bits.end(), whole.channel_bits.begin()));
     EXPECT_TRUE(std::equal(part.poses.begin(), part.poses.end(), whole.poses.begin()));
 }
 

@@ -89,7 +89,7 @@ TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_th
     auto const [window_length, threshold] = GetParam();
     KnowledgeConfig const config{window_length, threshold};
     Trace feature;
-    feature.bits.assign(static_cast<std::size_t>(window_length), 0);
+    feature.channel_bits.assign(static_cast<std::size_t>(window_length), 0);
     feature.values.assign(static_cast<std::size_t>(window_length * continuous_count), 0.0f);
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     scan->add(windows_of(feature, window_length)[0]);
@@ -99,7 +99,7 @@ TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_th
         for (int changed = 1; changed <= continuous_count * window_length; changed += 1 + window_length / 7) {
             Trace query = feature;
             for (int bit = 0; bit < bits && bit < window_length * binary_count; ++bit)
-                query.bits[static_cast<std::size_t>(bit % window_length)] |=
+                query.channel_bits[static_cast<std::size_t>(bit % window_length)] |=
                     static_cast<std::uint16_t>(1u << bit / window_length);
             float const left = config.squared_threshold() - static_cast<float>(bits);
             if (left <= 0) break;
