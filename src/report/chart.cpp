@@ -121,6 +121,9 @@ std::size_t stack(std::vector<Bracket>& brackets) {
     return levels;
 }
 
+/// At most so many pixels are taken by a label.
+double text_width(std::string_view label) { return 7.2 * static_cast<double>(label.size()); }
+
 void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls,
               std::string_view color) {
     constexpr double half = 26, whisker = 13;
@@ -161,7 +164,9 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     }
     frame.y_most = std::ceil(frame.y_most);
 
-    SvgDocument svg{856, 476, "Mean number of collected balls of the best-of-run by generation"};
+    double width = 856;
+    for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + text_width(curve.label));
+    SvgDocument svg{width, 476, "Mean number of collected balls of the best-of-run by generation"};
     draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
         svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
@@ -225,7 +230,8 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     }
     double const bracket_height = 17, top = 30 + bracket_height * static_cast<double>(stack(brackets));
 
-    constexpr double slot = 98;
+    double slot = 98;
+    for (Box const& box : boxes) slot = std::max(slot, text_width(box.label));
     double const right = 64 + slot * static_cast<double>(std::max<std::size_t>(boxes.size(), 3));
     Frame const frame{64, right, top, top + 340, 1, highest + 0.4};   // room for the highest points' radius
     SvgDocument svg{right + 20, frame.bottom + 56, "Collected balls of the best-of-run at the last generation"};
