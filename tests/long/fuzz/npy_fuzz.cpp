@@ -17,6 +17,6 @@ void read_input(std::span<std::byte const> input) {
     });
     fuzz::accepts([&] {
         Trace const windows = read_windows(stored.path(), 2);
-        fuzz::demand(windows.values.size() == windows.bits.size() * continuous_count);
+        fuzz::demand(windows.values.size() == windows.channel_bits.size() * continuous_count);
     });
 }
