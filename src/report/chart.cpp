@@ -121,8 +121,8 @@ std::size_t stack(std::vector<Bracket>& brackets) {
     return levels;
 }
 
-/// At most so many pixels are taken by a label.
-double text_width(std::string_view label) { return 7.2 * static_cast<double>(label.size()); }
+/// About so many pixels are taken by a label; wide letters take a tenth more.
+double text_width(std::string_view label) { return 6.5 * static_cast<double>(label.size()); }
 
 void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls,
               std::string_view color) {
@@ -165,7 +165,7 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     frame.y_most = std::ceil(frame.y_most);
 
     double width = 856;
-    for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + text_width(curve.label));
+    for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + 1.1 * text_width(curve.label));
     SvgDocument svg{width, 476, "Mean number of collected balls of the best-of-run by generation"};
     draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
