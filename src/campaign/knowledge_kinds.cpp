@@ -3,12 +3,14 @@
 #include "plan_reading.h"
 
 #include <lore/campaign/choice.h>
+#include <lore/core/error.h>
 #include <lore/core/toml.h>
 #include <lore/experiment/config.h>
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -48,6 +50,18 @@ void read_balls(TomlTable const& table, KnowledgePlan& plan) {
 void read_run(TomlTable const& table, KnowledgePlan& plan) {
     plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
     read_build(table, plan);
+}
+
+/// As lore-kb revalue takes them.
+void read_revaluation(TomlTable const& table, KnowledgePlan& plan) {
+    using Whole = std::numeric_limits<std::int64_t>;
+    using Real = std::numeric_limits<double>;
+    std::string const rule = table.required_string("value");
+    auto const gamma = table.number("gamma", Real::lowest(), Real::max());
+    auto const success = table.integer("success", Whole::min(), Whole::max());
+    try {
+        plan.value = value_config(rule, gamma, success);
+    } catch (UsageError const& error) { table.fail("value", error.what()); }
 }
 
 void read_reduction(TomlTable const& table, KnowledgePlan& plan) {
@@ -97,6 +111,14 @@ Words permute(KnowledgePlan const& knowledge, CommandContext const& context) {
     return {"randomize", context.directory.knowledge(knowledge.base), "--permute", "--seed",
             std::to_string(knowledge.seed)};
 }
+Words revalue(KnowledgePlan const& knowledge, CommandContext const& context) {
+    ValueConfig const& value = knowledge.value;
+    Words words{"revalue", context.directory.knowledge(knowledge.base), "--value", std::string{name(value.rule)}};
+    if (value.rule == ValueRule::discounted_return)
+        words.insert(words.end(), {"--gamma", fmt::format("{}", value.gamma)});
+    if (value.success_balls > 0) words.insert(words.end(), {"--success", std::to_string(value.success_balls)});
+    return words;
+}
 Words reduce(KnowledgePlan const& knowledge, CommandContext const& context) {
     Words words{"reduce", context.directory.knowledge(knowledge.base)};
     if (!knowledge.consensus.empty()) words.push_back("--consensus");
@@ -112,6 +134,7 @@ constexpr KnowledgeKindRow kinds[] = {
     {"all_of", KnowledgeKind::all, true, true, read_build, after_archive, build_all},
     {"random_of", KnowledgeKind::random, false, false, read_seed, after_bases, randomize},
     {"permuted_of", KnowledgeKind::permuted, false, false, read_seed, after_bases, permute},
+    {"revalued_of", KnowledgeKind::revalued, false, false, read_revaluation, after_bases, revalue},
     {"part_of", KnowledgeKind::reduced, false, false, read_reduction, after_bases, reduce},
 };
 

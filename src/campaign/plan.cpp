@@ -4,9 +4,11 @@
 #include "plan_reading.h"
 #include "treatment_inputs.h"
 
+#include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/toml.h>
 #include <lore/experiment/config.h>
+#include <lore/experiment/knowledge_building.h>
 
 #include <algorithm>
 #include <cassert>
@@ -82,10 +84,51 @@ void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, Cam
         table.fail(kind.key, "it must name a knowledge base with 'balls' or 'run'");
 }
 
+bool has_option(KnowledgePlan const& knowledge, std::string_view option) {
+    return std::any_of(knowledge.options.begin(), knowledge.options.end(),
+                       [&](std::string const& word) { return word.starts_with(option); });
+}
+
+/// Discounts of which a base gathers returns so that those of `gamma` are among them. Those that its options name come
+/// on top.
+std::vector<double> gammas_with(double gamma, KnowledgePlan const& built) {
+    bool const has_own = has_option(built, "--gammas");
+    std::vector<double> gammas = built.gammas;
+    if (gammas.empty() && !has_own) gammas = default_gammas();
+    if (std::find(gammas.begin(), gammas.end(), gamma) != gammas.end()) return built.gammas;
+    gammas.insert(std::upper_bound(gammas.begin(), gammas.end(), gamma), gamma);
+    return gammas;
+}
+
+/// Has the base that the evidence comes from gather what the rule needs.
+void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, CampaignPlan& plan) {
+    std::string const from = built_base(plan, revalued).name;
+    KnowledgePlan& built = *std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                         [&](KnowledgePlan const& k) { return k.name == from; });
+    ValueConfig const& value = revalued.value;
+    try {
+        check_evidence_of(built.kind == KnowledgeKind::all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
+    } catch (UsageError const& error) { table.fail("value", error.what()); }
+    if (value.rule == ValueRule::discounted_return) {
+        built.gammas = gammas_with(value.gamma, built);
+        if (built.gammas.size() > most_gammas)
+            table.fail("gamma", fmt::format("'{}' would need returns for more than {} gammas", from, most_gammas),
+                       "Revalue by fewer.");
+    }
+    if (value.success_balls == 0) return;
+    if (has_option(built, "--success"))
+        table.fail("success", fmt::format("the options of '{}' have --success", from), "Leave one of the two out.");
+    if (built.success_balls > 0 && built.success_balls != value.success_balls)
+        table.fail("success", fmt::format("'{}' counts successes of {} balls already", from, built.success_balls),
+                   "Build another base for it.");
+    built.success_balls = value.success_balls;
+}
+
 void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
     for (TomlTable const& table : document.tables("knowledge")) {
         KnowledgePlan knowledge = read_knowledge(table);
         check_knowledge(table, knowledge, plan);
+        if (knowledge.kind == KnowledgeKind::revalued) ask_for_evidence(table, knowledge, plan);
         plan.knowledge.push_back(std::move(knowledge));
     }
     auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
@@ -172,6 +215,10 @@ KnowledgePlan const& CampaignPlan::knowledge_base(std::string_view name) const {
         std::find_if(knowledge.begin(), knowledge.end(), [&](KnowledgePlan const& k) { return k.name == name; });
     assert(found != knowledge.end());
     return *found;
+}
+
+KnowledgePlan const& built_base(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
+    return row_of(knowledge.kind).is_built ? knowledge : built_base(plan, plan.knowledge_base(knowledge.base));
 }
 
 std::string CampaignPlan::config_path(Treatment const& treatment) const {

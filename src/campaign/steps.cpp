@@ -50,6 +50,11 @@ std::vector<std::string> build_command(CommandContext const& context, Launcher c
     add(row_of(knowledge.kind).arguments(knowledge, context));
     if (knowledge.window_length) add({"--window-length", fmt::format("{}", *knowledge.window_length)});
     if (knowledge.match_threshold) add({"--threshold", fmt::format("{}", *knowledge.match_threshold)});
+    if (!knowledge.gammas.empty()) {
+        command.push_back("--gammas");
+        for (double const gamma : knowledge.gammas) command.push_back(fmt::format("{}", gamma));
+    }
+    if (knowledge.success_balls > 0) add({"--success", std::to_string(knowledge.success_balls)});
     add(knowledge.options);
     add({"--out", context.directory.knowledge(knowledge.name)});
     return command;

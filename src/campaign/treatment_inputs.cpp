@@ -21,10 +21,10 @@ std::vector<std::string> names_of(std::vector<KnowledgePlan> const& knowledge) {
 
 /// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
 KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
-    if (!row_of(knowledge.kind).is_built) return windows_of(plan, plan.knowledge_base(knowledge.base));
+    KnowledgePlan const& built = built_base(plan, knowledge);
     KnowledgeConfig config = read_config(plan.config_path(plan.source), plan.source.overrides).knowledge;
-    config.window_length = knowledge.window_length.value_or(config.window_length);
-    if (knowledge.match_threshold) config.match_threshold = static_cast<float>(*knowledge.match_threshold);
+    config.window_length = built.window_length.value_or(config.window_length);
+    if (built.match_threshold) config.match_threshold = static_cast<float>(*built.match_threshold);
     return config;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,6 +28,15 @@ double log_odds(Shares const& shares) {
                      remedy);
 }
 
+[[noreturn]] void refuse_lineage(ValueConfig const& config) {
+    refuse_evidence(config, "a lineage has no contemporaries", "Build from a run's --all, or --every N of them.");
+}
+
+[[noreturn]] void refuse_everybody(ValueConfig const& config) {
+    refuse_evidence(config, "it takes pairs of parent and child of a lineage",
+                    "Build from the lineage of an individual, without --all.");
+}
+
 /// The returns' sums of the wanted gamma.
 std::span<double const> return_sums(KnowledgeBase const& base, ValueConfig const& config) {
     Evidence const& evidence = base.evidence();
@@ -42,13 +52,16 @@ std::span<double const> return_sums(KnowledgeBase const& base, ValueConfig const
 }
 
 void check_contrast(Evidence const& evidence, ValueConfig const& config) {
-    if (!evidence.has_contrast())
-        refuse_evidence(config, "a lineage has no contemporaries", "Build from a run's --all, or --every N of them.");
+    if (!evidence.has_contrast()) refuse_lineage(config);
     if (evidence.successes == 0 || evidence.failures == 0)
         refuse_evidence(config,
                         fmt::format("in no {} generations some individuals delivered {} balls and some fewer",
                                     generations_per_era, evidence.success_balls),
                         "Build it anew with another --success.");
+    if (config.success_balls > 0 && std::cmp_not_equal(config.success_balls, evidence.success_balls))
+        refuse_evidence(
+            config, fmt::format("its successes have {} balls, not {}", evidence.success_balls, config.success_balls),
+            "Leave that out, or build it anew with another --success.");
 }
 
 }   // namespace
@@ -82,6 +95,29 @@ void check_gamma(double gamma) {
                          "Give one such as 0.995.");
 }
 
+ValueConfig value_config(std::string_view rule, std::optional<double> gamma,
+                         std::optional<std::int64_t> success_balls) {
+    ValueConfig config;
+    config.rule = value_rule(rule);
+    if (gamma && config.rule != ValueRule::discounted_return)
+        throw UsageError(fmt::format("value rule {} has no gamma", rule), "only return discounts", "Leave it out.");
+    if (success_balls && config.rule != ValueRule::contrast)
+        throw UsageError(fmt::format("value rule {} has no successes", rule), "only contrast counts them",
+                         "Leave that out.");
+    config.gamma = gamma.value_or(config.gamma);
+    check_gamma(config.gamma);
+    if (success_balls && (*success_balls < 1 || *success_balls > most_success_balls))
+        throw UsageError(fmt::format("{} balls make no success", *success_balls),
+                         fmt::format("it takes 1 to {}", most_success_balls), "Correct the number.");
+    config.success_balls = static_cast<int>(success_balls.value_or(0));
+    return config;
+}
+
+void check_evidence_of(BuiltFrom from, ValueRule rule) {
+    if (rule == ValueRule::contrast && from == BuiltFrom::lineage) refuse_lineage({rule});
+    if (rule == ValueRule::credit && from == BuiltFrom::everybody) refuse_everybody({rule});
+}
+
 std::vector<double> values_by(KnowledgeBase const& base, ValueConfig const& config) {
     Evidence const& evidence = base.evidence();
     std::vector<double> values(static_cast<std::size_t>(base.size()));
@@ -106,9 +142,7 @@ std::vector<double> values_by(KnowledgeBase const& base, ValueConfig const& conf
         });
         break;
     case ValueRule::credit:
-        if (!evidence.has_credit)
-            refuse_evidence(config, "it takes pairs of parent and child of a lineage",
-                            "Build from the lineage of an individual, without --all.");
+        if (!evidence.has_credit) refuse_everybody(config);
         fill([&](std::size_t i) { return credit_value(evidence.gain_sums[i], evidence.news[i]); });
         break;
     }

@@ -1,5 +1,7 @@
 #include "support/program.h"
 
+#include <lore/archive/knowledge_file.h>
+
 #include <cstdio>
 
 using namespace lore;
@@ -56,6 +58,40 @@ TEST_F(LoreCampaignTest, tells_what_a_missing_step_waits_for) {
     EXPECT_THAT(told, HasSubstr("kb1/001                  missing      waits for knowledge/kb1\n"));
     EXPECT_THAT(told, HasSubstr("none/001                 missing      not started\n"));
     EXPECT_THAT(run("status -q " + jobs + "small.toml --dir c").output, EndsWith(" missing\n"));
+}
+
+TEST_F(LoreCampaignTest, makes_bases_by_other_rules_of_value_and_founders_from_them) {
+    std::string const small = "[evolution]\npopulation = 8\nfounders = 16\ngenerations = 6\n[episode]\nsteps = 400\n";
+    write("source.toml", "task = \"source\"\n" + small);
+    write("target.toml", "task = \"target\"\n" + small);
+    auto const table = [](std::string const& kind, std::string const& name, std::string const& keys) {
+        return "[[" + kind + "]]\nname = \"" + name + "\"\n" + keys + "\n";
+    };
+    std::string const target = "config = \"target.toml\"\n";
+    write("c.toml", "title = \"Values\"\nruns = 1\n[source]\nconfig = \"source.toml\"\n" +
+                        table("knowledge", "base", "run = 1\noptions = [\"--gammas\", \"0.8\", \"0.9\"]") +
+                        table("knowledge", "all", "all_of = \"base\"") +
+                        table("knowledge", "mean", "revalued_of = \"base\"\nvalue = \"mean\"") +
+                        table("knowledge", "return", "revalued_of = \"base\"\nvalue = \"return\"\ngamma = 0.7") +
+                        table("knowledge", "credit", "revalued_of = \"base\"\nvalue = \"credit\"") +
+                        table("knowledge", "permuted", "permuted_of = \"return\"") +
+                        table("treatment", "clones", target + "clone_of = \"return\"") +
+                        table("treatment", "permuted", target + "clone_of = \"permuted\"") +
+                        table("treatment", "share", target + "knowledge = \"return\"\nset = [\"shaping.rule=share\"]"));
+    expect_done("run c.toml --dir c --jobs 1 -q");
+    EXPECT_THAT(run("status -q c.toml --dir c").output, HasSubstr("10 done"));
+    KnowledgeBase const base = read_knowledge_base(scratch.file("c/knowledge/base.lorekb"));
+    EXPECT_EQ(base.evidence().gammas, (std::vector<double>{0.7, 0.8, 0.9}));
+    EXPECT_EQ(read_knowledge_base(scratch.file("c/knowledge/return.lorekb")).provenance().value, "return 0.7");
+    EXPECT_EQ(read_knowledge_base(scratch.file("c/knowledge/credit.lorekb")).provenance().value, "credit");
+
+    std::filesystem::remove(scratch.file("c/knowledge/return.lorekb"));
+    std::filesystem::copy_file(LORE_SOURCE_DIR "/tests/data/version-1/sample.lorekb",
+                               scratch.file("c/knowledge/base.lorekb"),
+                               std::filesystem::copy_options::overwrite_existing);
+    test::Ran const without = run("run c.toml --dir c --jobs 1 -q --only knowledge/return");
+    EXPECT_EQ(without.exit_code, 1);
+    EXPECT_THAT(without.errors + without.output, HasSubstr("needs evidence that the base does not have"));
 }
 
 TEST_F(LoreCampaignTest, refuses_time_limits_that_are_none) {

@@ -213,6 +213,10 @@ TEST_F(LoreKb, values_features_anew_from_the_evidence_of_the_build) {
                        "discount");
     expect_refusal("revalue kb.lorekb --value median --out never", 2, "mean, return, contrast, credit");
     expect_refusal("revalue kb.lorekb --value mean --gamma 0.9 --out never", 2, "only return discounts");
+    expect_refusal("revalue all.lorekb --value contrast --success 2 --out never", 2,
+                   "its successes have 1 balls, not 2");
+    expect_refusal("revalue all.lorekb --value contrast --success 0 --out never", 2, "make no success");
+    expect_refusal("revalue kb.lorekb --value mean --success 1 --out never", 2, "only contrast counts them");
     expect_refusal("build run --value contrast --out never", 2, "a lineage has no contemporaries");
     expect_refusal("build run --value return --gamma 1 --out never", 2, "discount");
     expect_refusal("build run --gammas 0.5 1 --out never", 2, "discount");

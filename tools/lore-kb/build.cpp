@@ -38,18 +38,6 @@ KnowledgeConfig config_of(BuildOptions const& options, RunDirectory const& run) 
     return config;
 }
 
-/// Refuses a rule whose evidence such a build does not gather, before it starts.
-void check_evidence(BuildOptions const& options, ValueConfig const& value) {
-    auto const refuse = [&](char const* why, char const* remedy) {
-        throw UsageError(fmt::format("value rule {} needs evidence that the base does not have", name(value.rule)), why,
-                         remedy);
-    };
-    if (value.rule == ValueRule::contrast && !options.all)
-        refuse("a lineage has no contemporaries", "Build with --all, or --all --every N.");
-    if (value.rule == ValueRule::credit && options.all)
-        refuse("it takes pairs of parent and child of a lineage", "Build without --all.");
-}
-
 /// Those that were asked for, in increasing order, each once.
 std::vector<double> gammas_of(BuildOptions const& options, ValueConfig const& value) {
     std::vector<double> gammas = options.gammas;
@@ -66,8 +54,8 @@ std::vector<double> gammas_of(BuildOptions const& options, ValueConfig const& va
 void build(Program const& program, BuildOptions const& options) {
     if (options.all && options.individual)
         throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
-    ValueConfig const value = value_config(options.value, options.gamma);
-    check_evidence(options, value);
+    ValueConfig const value = value_config(options.value, options.gamma, std::nullopt);
+    check_evidence_of(options.all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
     std::vector<double> const gammas = gammas_of(options, value);
     check_writable(options.out);
     IndexKind const kind = index_kind(options.index);
@@ -119,7 +107,7 @@ void add_build(CLI::App& app, Program& program) {
     command
         ->add_option("--success", options->success,
                      "of contrast: so many balls make a success; default: half of what the best delivered")
-        ->check(CLI::Range(1, 1000000000))
+        ->check(CLI::Range(1, most_success_balls))
         ->needs(all);
 }
 

@@ -51,16 +51,6 @@ void add_value(CLI::App* command, std::string& rule, std::optional<double>& gamm
         ->default_str(fmt::format("{}", ValueConfig{}.gamma));
 }
 
-ValueConfig value_config(std::string const& rule, std::optional<double> gamma) {
-    ValueConfig config;
-    config.rule = value_rule(rule);
-    if (gamma && config.rule != ValueRule::discounted_return)
-        throw UsageError(fmt::format("value rule {} has no gamma", rule), "only return discounts", "Leave it out.");
-    config.gamma = gamma.value_or(config.gamma);
-    check_gamma(config.gamma);
-    return config;
-}
-
 std::string made_by(Program const& program) {
     BuildInformation const build = build_information();
     return fmt::format("{} (Lore {}, commit {})", program.command_line, build.version, build.commit);

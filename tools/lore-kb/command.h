@@ -51,8 +51,6 @@ void add_index(CLI::App*, std::string& name);
 void add_individual(CLI::App*, std::optional<std::string>&);
 /// --value RULE and --gamma G.
 void add_value(CLI::App*, std::string& rule, std::optional<double>& gamma, bool required);
-/// Throws UsageError for an unknown rule, a gamma outside (0, 1), and one that the rule has no use for.
-ValueConfig value_config(std::string const& rule, std::optional<double> gamma);
 /// Refuses "nan", which CLI11 reads as a number within any range.
 extern CLI::Validator const a_number;
 

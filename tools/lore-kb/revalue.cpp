@@ -10,10 +10,11 @@ namespace {
 struct RevalueOptions {
     std::string base, out, value;
     std::optional<double> gamma;
+    std::optional<std::int64_t> success;
 };
 
 void revalue(Program const& program, RevalueOptions const& options) {
-    ValueConfig const value = value_config(options.value, options.gamma);
+    ValueConfig const value = value_config(options.value, options.gamma, options.success);
     check_writable(options.out);
     write_derived(program, options.out, lore::revalue(read_knowledge_base(options.base), value), {options.base});
 }
@@ -27,6 +28,9 @@ void add_revalue(CLI::App& app, Program& program) {
                     options, revalue);
     add_base(command, options->base);
     add_value(command, options->value, options->gamma, true);
+    command->add_option("--success", options->success,
+                        "of contrast: so many balls make a success; refused where the base was built with another "
+                        "number");
     add_out(command, options->out);
 }
 

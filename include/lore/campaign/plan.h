@@ -1,5 +1,7 @@
 #pragma once
 
+#include <lore/knowledge/value.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +30,7 @@ enum class KnowledgeKind : std::uint8_t {
     all,            ///< over all individuals evaluated in the source run of `base`
     random,         ///< `base` with drawn values
     permuted,       ///< `base` with its values shuffled among the features
+    revalued,       ///< `base` with values by another rule
     reduced         ///< a part of `base`
 };
 
@@ -42,8 +45,12 @@ struct KnowledgePlan {
     std::uint64_t seed = 1;             ///< random, permuted: of the draw
     std::optional<int> window_length;   ///< of its windows [steps]; without: the source runs'
     std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
-    std::vector<std::string> consensus;      ///< reduced: the knowledge bases that must know a feature too
-    std::vector<std::string> options;        ///< further arguments of lore-kb build or reduce
+    std::vector<double> gammas;           ///< of a base that is built: discounts of the returns it gathers, increasing;
+                                          ///< without: those of lore-kb
+    int success_balls = 0;                ///< all: what makes a success [balls]; 0: as lore-kb decides
+    ValueConfig value;                    ///< revalued: by this rule
+    std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
+    std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
 };
 
 /// Which knowledge bases the pictures of trajectories show (paper, figures 5 and 6).
@@ -79,10 +86,14 @@ struct CampaignPlan {
     std::string config_path(Treatment const&) const;                    ///< usable from the working directory
 };
 
+/// The base by Algorithm 1 that a base is, or was derived from: its features and its evidence.
+KnowledgePlan const& built_base(CampaignPlan const&, KnowledgePlan const&);
+
 /// Reads jobs/campaigns/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
-/// A treatment reads windows of the length and with the threshold of its knowledge base, without having to say so.
-/// Throws UsageError: syntax, unknown key, a name used twice or not defined, a value out of range, a treatment that
-/// sets other windows than its base has.
+/// A treatment reads windows of the length and with the threshold of its knowledge base, without having to say so. A
+/// base gathers the evidence that the bases revalued from it need. Throws UsageError: syntax, unknown key, a name used
+/// twice or not defined, a value out of range, a treatment that sets other windows than its base has, a value rule
+/// whose evidence no build of such a base gathers.
 CampaignPlan read_campaign(std::string const& path);
 
 }   // namespace lore

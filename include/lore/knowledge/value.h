@@ -37,13 +37,22 @@ double credit_value(double gain_sum, std::uint32_t news);
 
 struct ValueConfig {
     ValueRule rule = ValueRule::mean;
-    double gamma = 0.995;   ///< Discount a step, in (0, 1). Of discounted_return only.
+    double gamma = 0.995;    ///< Discount a step, in (0, 1). Of discounted_return only.
+    int success_balls = 0;   ///< What makes a success [balls]; 0: what the base counted. Of contrast only.
     friend bool operator==(ValueConfig const&, ValueConfig const&) = default;
 };
 /// "mean", "return 0.995", "contrast", "credit": Provenance::value.
 std::string text(ValueConfig const&);
 /// Throws UsageError unless gamma is in (0, 1).
 void check_gamma(double gamma);
+inline constexpr int most_success_balls = 1'000'000'000;
+/// As users write it: the rule's name, and what they give for it. Throws UsageError: an unknown rule, a number out of
+/// range, or one that the rule has no use for.
+ValueConfig value_config(std::string_view rule, std::optional<double> gamma, std::optional<std::int64_t> success_balls);
+/// What a base is built from: the ancestors of one individual, or all individuals in order of birth.
+enum class BuiltFrom : std::uint8_t { lineage, everybody };
+/// Throws UsageError if such a build does not gather the evidence that the rule needs.
+void check_evidence_of(BuiltFrom, ValueRule);
 
 /// The values of all features by this rule. Throws UsageError if the base lacks the evidence, or the rule gives a
 /// number that is not finite.

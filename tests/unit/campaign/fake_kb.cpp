@@ -5,18 +5,24 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 int main(int argc, char** argv) {
     std::vector<std::string> const arguments(argv + 1, argv + argc);
+    std::set<std::string> const options{"--seed", "--top", "--value", "--gamma", "--success"};   // with a value
     std::string out;
     for (std::size_t i = 1; i < arguments.size(); ++i) {
         if (arguments[i] == "--out") {
             out = arguments[++i];
             continue;
         }
-        if (arguments[i] == "--seed" || arguments[i] == "--top") {
+        if (arguments[i] == "--gammas") {
+            while (i + 1 < arguments.size() && !arguments[i + 1].starts_with("--")) ++i;
+            continue;
+        }
+        if (options.contains(arguments[i])) {
             ++i;
             continue;
         }

@@ -56,6 +56,10 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     CampaignPlan const still = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/still.toml");
     EXPECT_EQ(still.targets.at(2).knowledge, "kb1_permuted");
     EXPECT_EQ(steps_of(still).size(), 30u + 1 + 6 + 210 + 1);
+    CampaignPlan const screening = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/screening.toml");
+    EXPECT_EQ(screening.knowledge_base("base_return").value, (ValueConfig{ValueRule::discounted_return, 0.995}));
+    EXPECT_EQ(screening.knowledge_base("base").gammas, std::vector<double>{}) << "lore-kb gathers 0.995 anyway";
+    EXPECT_EQ(screening.treatment("clone_credit").clone_of, "base_credit");
     CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/ties.toml");
     EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90 + 1);
     // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
@@ -187,6 +191,85 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     four.ranks = 4;
     auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
     EXPECT_EQ(shell_text({words.begin(), words.begin() + 6}), "mpirun -n 4 --bind-to none lore-evolve");
+}
+
+namespace {
+
+std::string revalued(std::string const& name, std::string const& of, std::string const& value) {
+    return "[[knowledge]]\nname = \"" + name + "\"\nrevalued_of = \"" + of + "\"\nvalue = " + value + "\n";
+}
+
+}   // namespace
+
+TEST_F(Campaign, has_bases_gather_what_those_revalued_from_them_need) {
+    std::string const treatment = "[[treatment]]\nname = \"none\"\n";
+    std::string const bases = revalued("credit", "kb1", "\"credit\"") + revalued("usual", "kb1", "\"return\"") +
+                              revalued("short", "kb1_random", "\"return\"\ngamma = 0.9") +
+                              revalued("shorter", "short", "\"return\"\ngamma = 0.5") +
+                              revalued("again", "kb1", "\"return\"\ngamma = 0.9") +
+                              revalued("second", "kb2", "\"return\"\ngamma = 0.99") +
+                              revalued("contrast", "kb1_all", "\"contrast\"\nsuccess = 4") +
+                              "[[knowledge]]\nname = \"drawn\"\npermuted_of = \"short\"\n";
+    ASSERT_EQ(complaint(treatment, bases + treatment + "clone_of = \"drawn\"\n"), "");
+    CampaignPlan const campaign = plan();
+    auto const step = [&](std::string const& name) { return steps_named(steps_of(campaign), {name}).front(); };
+    auto const command = [&](std::string const& name) {
+        return shell_text(command_of(campaign, CampaignDirectory{"c"}, Launcher{}, step(name), nullptr));
+    };
+    EXPECT_EQ(command("knowledge/kb1"),
+              "lore-kb build 'c/runs/source/?' --gammas 0.5 0.9 0.99 0.995 0.998 --out c/knowledge/kb1.lorekb");
+    EXPECT_EQ(command("knowledge/kb2"), "lore-kb build 'c/runs/source/?' --out c/knowledge/kb2.lorekb")
+        << "lore-kb gathers returns for 0.99 anyway";
+    EXPECT_EQ(command("knowledge/kb1_all"),
+              "lore-kb build c/runs/archive/kb1_all --all --success 4 --out c/knowledge/kb1_all.lorekb");
+    EXPECT_EQ(command("knowledge/credit"),
+              "lore-kb revalue c/knowledge/kb1.lorekb --value credit --out c/knowledge/credit.lorekb");
+    EXPECT_EQ(
+        command("knowledge/short"),
+        "lore-kb revalue c/knowledge/kb1_random.lorekb --value return --gamma 0.9 --out c/knowledge/short.lorekb");
+    EXPECT_EQ(command("knowledge/contrast"), "lore-kb revalue c/knowledge/kb1_all.lorekb --value contrast --success 4 "
+                                             "--out c/knowledge/contrast.lorekb");
+    EXPECT_EQ(step("knowledge/shorter").after, std::vector<std::string>{"knowledge/short"});
+    EXPECT_EQ(step("none/001").after, std::vector<std::string>{"knowledge/drawn"});
+
+    ASSERT_EQ(complaint("balls = 6",
+                        "balls = 6\noptions = [\"--gammas\", \"0.7\"]\n" + revalued("usual", "kb1", "\"return\"")),
+              "");
+    EXPECT_EQ(shell_text(command_of(plan(), CampaignDirectory{"c"}, Launcher{}, step("knowledge/kb1"), nullptr)),
+              "lore-kb build 'c/runs/source/?' --gammas 0.995 --gammas 0.7 --out c/knowledge/kb1.lorekb");
+}
+
+TEST_F(Campaign, refuses_values_that_no_evidence_will_give) {
+    std::string const treatment = "[[treatment]]\nname = \"none\"\n";
+    auto const complaint_of = [&](std::string const& bases) { return complaint(treatment, bases + treatment); };
+    auto const expect = [&](std::string const& of, std::string const& value, std::string const& says) {
+        std::string const said = complaint_of(revalued("new", of, value));
+        EXPECT_NE(said.find(says), std::string::npos) << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    };
+    expect("kb1", "\"median\"", "there are mean, return, contrast, credit");
+    for (char const* gamma : {"0", "1", "-0.5", "1.5"})
+        expect("kb1", std::string{"\"return\"\ngamma = "} + gamma, "is no discount");
+    expect("kb1", "\"return\"\ngamma = nan", "gamma");
+    expect("kb1", "\"mean\"\ngamma = 0.9", "only return discounts");
+    expect("kb1", "\"credit\"\nsuccess = 2", "only contrast counts them");
+    expect("kb1_all", "\"contrast\"\nsuccess = 0", "it takes 1 to");
+    expect("kb1", "\"contrast\"", "a lineage has no contemporaries");
+    expect("kb1_random", "\"contrast\"", "a lineage has no contemporaries");
+    expect("kb1_all", "\"credit\"", "it takes pairs of parent and child");
+    expect("kb3", "\"mean\"", "there is no 'kb3' before it");
+    std::string const two = complaint_of(revalued("a", "kb1_all", "\"contrast\"\nsuccess = 2") +
+                                         revalued("b", "kb1_all", "\"contrast\"\nsuccess = 3"));
+    EXPECT_NE(two.find("'kb1_all' counts successes of 2 balls already"), std::string::npos) << two;
+    std::string const own = complaint("all_of = \"kb1\"", "all_of = \"kb1\"\noptions = [\"--success\", \"2\"]\n" +
+                                                              revalued("a", "kb1_all", "\"contrast\"\nsuccess = 2"));
+    EXPECT_NE(own.find("the options of 'kb1_all' have --success"), std::string::npos) << own;
+    std::string many;
+    for (int i = 0; i < 14; ++i)
+        many += revalued(std::string(1, static_cast<char>('a' + i)), "kb1",
+                         std::string{"\"return\"\ngamma = 0."}.append(std::to_string(10 + i)));
+    EXPECT_NE(complaint_of(many).find("more than 16 gammas"), std::string::npos);
+    EXPECT_NE(complaint_of("[[knowledge]]\nname = \"x\"\nrevalued_of = \"kb1\"\n").find("value"), std::string::npos);
 }
 
 TEST_F(Campaign, has_every_kind_of_knowledge_and_input_of_treatments_in_its_documentation) {
