@@ -53,6 +53,20 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
         entry["median"] = quantile(balls, 0.5);
         entry["upper_quartile"] = quantile(balls, 0.75);
         entry["most"] = quantile(balls, 1);
+        for (SpeedRow const& speed : results.speeds) {
+            if (speed.treatment != treatment.name) continue;
+            Json& times = entry["time_to_balls"] = Json::array();
+            for (std::size_t k = 0; k < timed_balls.size(); ++k)
+                times.push_back({{"balls", timed_balls[k]},
+                                 {"reached", speed.to[k].reached},
+                                 {"mean", speed.to[k].mean},
+                                 {"low", speed.to[k].low},
+                                 {"high", speed.to[k].high},
+                                 {"median", speed.to[k].median}});
+            entry["area"] = speed.area;
+            entry["area_low"] = speed.area_low;
+            entry["area_high"] = speed.area_high;
+        }
         for (auto row = results.curves.rbegin(); row != results.curves.rend(); ++row) {
             if (row->treatment != treatment.name) continue;
             entry["generation"] = row->generation;
@@ -97,6 +111,14 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"greatest_value", base.greatest_value},
                                          {"at_greatest", base.at_greatest},
                                          {"shown_once", base.shown_once}});
+    if (results.leads.empty()) return document.dump(2) + "\n";
+    document["leads"] = Json::array();
+    for (LeadRow const& lead : results.leads)
+        document["leads"].push_back({{"treatment", lead.treatment},
+                                     {"policy", lead.policy},
+                                     {"none", lead.none},
+                                     {"generation", lead.generation},
+                                     {"share", lead.share}});
     return document.dump(2) + "\n";
 }
 

@@ -64,6 +64,14 @@ std::string populations(CampaignPlan const& plan, Results const& results) {
     return results.populations.empty() ? "" : filled("population", {{"populations", populations_table(plan, results)}});
 }
 
+std::string speeds(CampaignPlan const& plan, Results const& results) {
+    if (results.speeds.empty()) return "";
+    std::string const leads = results.leads.empty() ? "" : filled("leads", {{"leads", leads_table(plan, results)}});
+    return filled("speed", {{"generations", std::to_string(results.speeds.front().generations)},
+                            {"speeds", speeds_table(plan, results)},
+                            {"leads", leads}});
+}
+
 std::string versions(Results const& results) {
     std::set<std::string> versions;
     for (RunRow const& run : results.runs)
@@ -103,6 +111,7 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
                            {"treatments", treatments_table(plan, results)},
                            {"figure3", figure(figures, "figure3")},
                            {"figure4", figure(figures, "figure4")},
+                           {"speed", speeds(plan, results)},
                            {"significance", significance(plan, comparisons)},
                            {"bases", bases(plan, results)},
                            {"figure5", figure(figures, "figure5", {{"run", trajectory}})},

@@ -12,6 +12,8 @@ namespace lore {
 
 std::string treatments_table(CampaignPlan const&, Results const&);
 std::string populations_table(CampaignPlan const&, Results const&);
+std::string speeds_table(CampaignPlan const&, Results const&);
+std::string leads_table(CampaignPlan const&, Results const&);
 std::string bases_table(CampaignPlan const&, Results const&);
 std::string runs_table(CampaignPlan const&, Results const&);
 std::string pairs_table(CampaignPlan const&, std::vector<Comparison> const&);

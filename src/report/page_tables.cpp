@@ -125,6 +125,44 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
     return html_table("populations", columns, results.populations);
 }
 
+std::string speeds_table(CampaignPlan const& plan, Results const& results) {
+    using Row = SpeedRow;
+    auto const interval = [](double low, double high) { return HtmlCell{fmt::format("{:.0f} .. {:.0f}", low, high)}; };
+    std::vector<HtmlColumn<Row>> columns{
+        {"treatment", [&](Row const& s) { return plan.treatment(s.treatment).label; }, true},
+        {"runs", [](Row const& s) { return std::to_string(s.runs); }}};
+    for (std::size_t k = 0; k < timed_balls.size(); ++k) {
+        std::string const heading = fmt::format("to {}", timed_balls[k]);
+        columns.push_back({heading, [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].mean); }});
+        columns.push_back(
+            {"95 %", [=](Row const& s) {
+                 return HtmlCell{interval(s.to[k].low, s.to[k].high).shown, fmt::format("{}", s.to[k].low)};
+             }});
+        columns.push_back({"median", [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].median); }});
+        columns.push_back({"there", [=](Row const& s) { return std::to_string(s.to[k].reached); }});
+    }
+    columns.push_back({"area", [](Row const& s) { return fmt::format("{:.0f}", s.area); }});
+    columns.push_back({"95 %", [=](Row const& s) {
+                           return HtmlCell{interval(s.area_low, s.area_high).shown, fmt::format("{}", s.area_low)};
+                       }});
+    return html_table("speeds", columns, results.speeds);
+}
+
+std::string leads_table(CampaignPlan const& plan, Results const& results) {
+    using Row = LeadRow;
+    auto const label = [&](std::string const& name) { return plan.treatment(name).label; };
+    std::vector<HtmlColumn<Row>> const columns{
+        {"treatment", [&](Row const& l) { return label(l.treatment); }, true},
+        {"policy", [&](Row const& l) { return label(l.policy); }, true},
+        {"no transfer", [&](Row const& l) { return label(l.none); }, true},
+        {"generation", [](Row const& l) { return std::to_string(l.generation); }},
+        {"balls", [](Row const& l) { return two_decimals(l.balls); }},
+        {"of the policy", [](Row const& l) { return two_decimals(l.policy_balls); }},
+        {"of no transfer", [](Row const& l) { return two_decimals(l.none_balls); }},
+        {"share of the lead", [](Row const& l) { return two_decimals(l.share); }}};
+    return html_table("leads", columns, results.leads);
+}
+
 std::string bases_table(CampaignPlan const& plan, Results const& results) {
     using Row = KnowledgeRow;
     auto const label = [&](Row const& base) {

@@ -30,6 +30,9 @@ void check_names(CampaignPlan const& plan, Results const& results) {
     };
     for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
     for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
+    for (SpeedRow const& row : results.speeds) check_treatment("speed.csv", row.treatment);
+    for (LeadRow const& row : results.leads)
+        for (std::string const& name : {row.treatment, row.policy, row.none}) check_treatment("leads.csv", name);
     for (Replay const& replay : results.replays)
         check_treatment("replay.csv", std::string_view{replay.run}.substr(0, replay.run.find('/')));
 }

@@ -84,16 +84,19 @@ std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedR
     return rows;
 }
 
-std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
-    int const last = common_length(runs) - 1;
+/// 0, 1, 2, 5, 10, 20, 50 and so on, and the last.
+std::vector<int> milestones_to(int last) {
     std::vector<int> generations{0};
     for (int decade = 1; decade < last; decade *= 10)
         for (int const step : {1, 2, 5})
             if (step * decade < last) generations.push_back(step * decade);
     if (last > 0) generations.push_back(last);
+    return generations;
+}
 
+std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
     std::vector<PopulationRow> rows;
-    for (int const generation : generations) {
+    for (int const generation : milestones_to(common_length(runs) - 1)) {
         auto const mean_of = [&](auto column) {
             double sum = 0;
             for (FinishedRun const& run : runs)
@@ -109,9 +112,35 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
     return rows;
 }
 
-/// The knowledge base from a lineage that this one goes back to.
-KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
-    return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
+/// A treatment's runs as curves of best balls, from generation 0.
+struct TreatmentCurves {
+    std::string treatment;
+    std::vector<std::vector<int>> curves;
+};
+
+/// How fast the target treatments are, over the generations that all their runs have.
+void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results) {
+    if (targets.empty()) return;
+    std::size_t length = targets.front().curves.front().size();
+    for (TreatmentCurves const& target : targets)
+        for (std::vector<int> const& curve : target.curves) length = std::min(length, curve.size());
+    int const last = static_cast<int>(length) - 1;
+    std::vector<Milestone> milestones;
+    for (TreatmentCurves const& target : targets) {
+        results.speeds.push_back(speed_of(target.treatment, target.curves, last));
+        for (int const generation : milestones_to(last)) {
+            double sum = 0;
+            for (std::vector<int> const& curve : target.curves) sum += curve[static_cast<std::size_t>(generation)];
+            milestones.push_back({target.treatment, generation, sum / static_cast<double>(target.curves.size())});
+        }
+    }
+    results.leads = leads_of(plan, milestones);
+}
+
+std::vector<int> best_balls(std::vector<GenerationSummary> const& progress) {
+    std::vector<int> balls;
+    for (GenerationSummary const& generation : progress) balls.push_back(generation.best_balls);
+    return balls;
 }
 
 std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory,
@@ -147,6 +176,10 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
 
 }   // namespace
 
+KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
+    return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
+}
+
 std::vector<double> Results::final_balls(std::string_view treatment) const {
     std::vector<double> balls;
     for (RunRow const& run : runs)
@@ -158,6 +191,7 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
     Results results;
     std::vector<std::string> order{plan.source.name};
     order.insert(order.end(), plan.report_order.begin(), plan.report_order.end());
+    std::vector<TreatmentCurves> targets;
     for (std::string const& name : order) {
         Treatment const& treatment = plan.treatment(name);
         auto const runs = finished_runs(plan, directory, treatment);
@@ -167,7 +201,11 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         results.curves.insert(results.curves.end(), curve.begin(), curve.end());
         auto const populations = populations_of(treatment, runs);
         results.populations.insert(results.populations.end(), populations.begin(), populations.end());
+        if (name == plan.source.name) continue;
+        targets.push_back({name, {}});
+        for (FinishedRun const& run : runs) targets.back().curves.push_back(best_balls(run.progress));
     }
+    add_speeds(plan, targets, results);
     results.bases = knowledge_rows(plan, directory, recorded_choice(directory));
     return results;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "speed.h"
+
 #include <lore/campaign/replay.h>
 
 #include <cstdint>
@@ -64,6 +66,8 @@ struct Results {
     std::vector<CurveRow> curves;
     std::vector<PopulationRow> populations;
     std::vector<KnowledgeRow> bases;
+    std::vector<SpeedRow> speeds;   ///< of the target treatments that have runs
+    std::vector<LeadRow> leads;
     std::vector<Replay> replays;
     std::vector<PanelValues> panels;
 
@@ -74,7 +78,10 @@ struct Results {
 /// Throws Error for a damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
 
-/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv (docs/manual/formats.md).
+/// The knowledge base from a lineage that this one goes back to.
+KnowledgePlan const& origin_of(CampaignPlan const&, KnowledgePlan const&);
+
+/// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, speed.csv, leads.csv (docs/manual/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
 /// Reads these and the files of the step "replay". final.csv and curves.csv must be there; parts of Results whose file
 /// is missing stay empty. Throws Error.

@@ -56,6 +56,38 @@ std::vector<CsvColumn<KnowledgeRow>> const knowledge_columns{
     csv_column("at_greatest", &KnowledgeRow::at_greatest),
     csv_column("shown_once", &KnowledgeRow::shown_once)};
 
+/// A number of the time to the which-th of timed_balls.
+template <class Value>
+CsvColumn<SpeedRow> time_column(std::string_view name, std::size_t which, Value TimeToBalls::*member) {
+    CsvColumn<TimeToBalls> const column = csv_column(name, member, rounded);
+    return {name, [=](std::string& text, SpeedRow const& row) { column.write(text, row.to[which]); },
+            [=](CsvTable const& table, std::size_t r, std::size_t c, SpeedRow& row) {
+                column.read(table, r, c, row.to[which]);
+            }};
+}
+
+std::vector<CsvColumn<SpeedRow>> const speed_columns{
+    csv_column("treatment", &SpeedRow::treatment),         csv_column("runs", &SpeedRow::runs),
+    csv_column("generations", &SpeedRow::generations),     time_column("reached_1", 0, &TimeToBalls::reached),
+    time_column("time_1", 0, &TimeToBalls::mean),          time_column("time_1_low", 0, &TimeToBalls::low),
+    time_column("time_1_high", 0, &TimeToBalls::high),     time_column("median_1", 0, &TimeToBalls::median),
+    time_column("reached_3", 1, &TimeToBalls::reached),    time_column("time_3", 1, &TimeToBalls::mean),
+    time_column("time_3_low", 1, &TimeToBalls::low),       time_column("time_3_high", 1, &TimeToBalls::high),
+    time_column("median_3", 1, &TimeToBalls::median),      time_column("reached_5", 2, &TimeToBalls::reached),
+    time_column("time_5", 2, &TimeToBalls::mean),          time_column("time_5_low", 2, &TimeToBalls::low),
+    time_column("time_5_high", 2, &TimeToBalls::high),     time_column("median_5", 2, &TimeToBalls::median),
+    csv_column("area", &SpeedRow::area, rounded),          csv_column("area_low", &SpeedRow::area_low, rounded),
+    csv_column("area_high", &SpeedRow::area_high, rounded)};
+
+std::vector<CsvColumn<LeadRow>> const lead_columns{csv_column("treatment", &LeadRow::treatment),
+                                                   csv_column("policy", &LeadRow::policy),
+                                                   csv_column("none", &LeadRow::none),
+                                                   csv_column("generation", &LeadRow::generation),
+                                                   csv_column("balls", &LeadRow::balls, rounded),
+                                                   csv_column("policy_balls", &LeadRow::policy_balls, rounded),
+                                                   csv_column("none_balls", &LeadRow::none_balls, rounded),
+                                                   csv_column("share", &LeadRow::share, rounded)};
+
 template <class Row>
 void write(CampaignDirectory const& directory, std::string_view name, std::vector<CsvColumn<Row>> const& columns,
            std::vector<Row> const& rows) {
@@ -76,6 +108,8 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
     write(directory, "curves.csv", curve_columns, results.curves);
     write(directory, "population.csv", population_columns, results.populations);
     write(directory, "kbs.csv", knowledge_columns, results.bases);
+    write(directory, "speed.csv", speed_columns, results.speeds);
+    write(directory, "leads.csv", lead_columns, results.leads);
 }
 
 Results read_results(CampaignDirectory const& directory) {
@@ -86,6 +120,8 @@ Results read_results(CampaignDirectory const& directory) {
     results.curves = read(directory, "curves.csv", curve_columns);
     if (there("population.csv")) results.populations = read(directory, "population.csv", population_columns);
     if (there("kbs.csv")) results.bases = read(directory, "kbs.csv", knowledge_columns);
+    if (there("speed.csv")) results.speeds = read(directory, "speed.csv", speed_columns);
+    if (there("leads.csv")) results.leads = read(directory, "leads.csv", lead_columns);
     Replays shown = read_replays(directory);
     results.replays = std::move(shown.replays);
     results.panels = std::move(shown.panels);

@@ -71,10 +71,12 @@ void read_input(std::span<std::byte const> input) {
     static MadeUpCampaign campaign;
     if (input.empty()) return;
     fuzz::MemoryFile const stored{input.subspan(1)};
-    std::size_t const which = std::to_integer<std::size_t>(input[0]) % (std::size(tables) + 4);
+    std::size_t const which = std::to_integer<std::size_t>(input[0]) % (std::size(tables) + 6);
     if (which < std::size(tables)) campaign.read_with(tables[which], stored);
     else if (which == std::size(tables)) fuzz::accepts([&] { read_choice(stored.path()); });
     else if (which == std::size(tables) + 1) campaign.read_failure_of(stored);
     else if (which == std::size(tables) + 2) campaign.read_with("population.csv", stored);
-    else campaign.read_with("scene.json", stored);
+    else if (which == std::size(tables) + 3) campaign.read_with("scene.json", stored);
+    else if (which == std::size(tables) + 4) campaign.read_with("speed.csv", stored);
+    else campaign.read_with("leads.csv", stored);
 }

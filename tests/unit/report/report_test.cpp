@@ -29,6 +29,11 @@ TEST_F(Report, has_a_row_for_every_finished_run) {
     EXPECT_EQ(rows("kbs.csv"), 5);
     EXPECT_TRUE(made("population.csv").starts_with("treatment,generation,runs,mean_balls,fronts,tied,"));
     EXPECT_EQ(rows("population.csv"), 4 * 6) << "generations 0, 1, 2, 5, 10 and 20";
+    EXPECT_TRUE(
+        made("speed.csv").starts_with("treatment,runs,generations,reached_1,time_1,time_1_low,time_1_high,median_1,"));
+    EXPECT_EQ(rows("speed.csv"), 3);
+    EXPECT_EQ(rows("leads.csv"), 0) << "there is no policy";
+    EXPECT_NE(made("report.html").find("restricted mean"), std::string::npos);
     for (char const* name : {"report.html", "figures/figure3.svg", "figures/figure3.png", "figures/figure4.svg",
                              "figures/figure4.png", "summary.json"})
         EXPECT_FALSE(made(name).empty()) << name;
@@ -72,7 +77,8 @@ TEST_F(Report, is_the_same_to_the_byte_when_made_again_from_the_csv_files_alone)
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::filesystem::create_directories(scratch.file("kept"));
-    for (char const* name : {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv"})
+    for (char const* name :
+         {"final.csv", "runs.csv", "curves.csv", "population.csv", "kbs.csv", "speed.csv", "leads.csv"})
         std::filesystem::copy_file(scratch.file(std::string{"c/"} + name), scratch.file(std::string{"kept/"} + name));
     write_report(plan(), directory("kept"));
     for (char const* name :
@@ -92,6 +98,21 @@ TEST_F(Report, can_be_written_elsewhere_so_that_campaigns_can_share_their_runs) 
     EXPECT_FALSE(std::filesystem::exists(scratch.file("third/final.csv")));
     write("file", "");
     EXPECT_THROW(write_report(plan(), directory(), directory("file")), Error) << "where no directory can be made";
+}
+
+TEST_F(Report, says_how_much_of_the_policys_lead_a_base_has) {
+    write("campaign.toml", std::string{test::small_campaign}.replace(
+                               test::small_campaign.find("knowledge = \"kb1_all\""), 21, "policy_of = \"kb1\""));
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write("c/leads.csv", "of a former report");
+    write_report(plan(), directory());
+    EXPECT_TRUE(
+        made("leads.csv").starts_with("treatment,policy,none,generation,balls,policy_balls,none_balls,share\n"));
+    if (rows("leads.csv") > 0) {
+        EXPECT_NE(made("leads.csv").find("\nkb1,all,none,"), std::string::npos);
+        EXPECT_NE(made("report.html").find("id=\"leads\""), std::string::npos);
+        EXPECT_NE(made("summary.json").find("\"leads\""), std::string::npos);
+    }
 }
 
 TEST_F(Report, of_the_published_tables_is_the_published_one) {

@@ -1,0 +1,107 @@
+#include "speed.h"
+
+#include "results.h"
+
+#include <lore/statistics/bootstrap.h>
+#include <lore/statistics/quantiles.h>
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+namespace lore {
+
+namespace {
+
+/// The first generation with so many balls, or nothing.
+std::optional<int> first_with(std::vector<int> const& curve, int balls, int generations) {
+    for (int g = 0; g <= generations; ++g)
+        if (curve[static_cast<std::size_t>(g)] >= balls) return g;
+    return std::nullopt;
+}
+
+double area_under(std::vector<int> const& curve, int generations) {
+    double area = 0;
+    for (std::size_t g = 0; std::cmp_less(g, generations); ++g) area += (curve[g] + curve[g + 1]) / 2.0;
+    return area;
+}
+
+/// The base that the treatment takes something of, if any.
+std::string const& base_of(Treatment const& treatment) {
+    return treatment.knowledge.empty() ? treatment.clone_of : treatment.knowledge;
+}
+
+Treatment const* find_target(CampaignPlan const& plan, auto const& fits) {
+    for (std::string const& name : plan.report_order)
+        if (Treatment const& treatment = plan.treatment(name); fits(treatment)) return &treatment;
+    return nullptr;
+}
+
+double const* balls_at(std::vector<Milestone> const& milestones, std::string_view treatment, int generation) {
+    auto const found = std::find_if(milestones.begin(), milestones.end(), [&](Milestone const& m) {
+        return m.treatment == treatment && m.generation == generation;
+    });
+    return found == milestones.end() ? nullptr : &found->balls;
+}
+
+}   // namespace
+
+SpeedRow speed_of(std::string treatment, std::span<std::vector<int> const> curves, int generations) {
+    assert(!curves.empty());
+    SpeedRow row;
+    row.treatment = std::move(treatment);
+    row.runs = static_cast<int>(curves.size());
+    row.generations = generations;
+    std::vector<std::vector<double>> measures;   // a run each: its times, then its area
+    for (std::vector<int> const& curve : curves) {
+        measures.emplace_back();
+        for (std::size_t k = 0; k < timed_balls.size(); ++k) {
+            auto const first = first_with(curve, timed_balls[k], generations);
+            row.to[k].reached += first.has_value();
+            measures.back().push_back(first.value_or(generations));
+        }
+        measures.back().push_back(area_under(curve, generations));
+    }
+    MeanBand const band = bootstrap_mean_band(measures);
+    for (std::size_t k = 0; k < timed_balls.size(); ++k) {
+        std::vector<double> times;
+        for (std::vector<double> const& of_run : measures) times.push_back(of_run[k]);
+        row.to[k].mean = band.mean[k];
+        row.to[k].low = band.low[k];
+        row.to[k].high = band.high[k];
+        row.to[k].median = quantile(times, 0.5);
+    }
+    row.area = band.mean.back();
+    row.area_low = band.low.back();
+    row.area_high = band.high.back();
+    return row;
+}
+
+std::vector<LeadRow> leads_of(CampaignPlan const& plan, std::vector<Milestone> const& milestones) {
+    std::vector<LeadRow> rows;
+    for (std::string const& name : plan.report_order) {
+        Treatment const& treatment = plan.treatment(name);
+        if (base_of(treatment).empty()) continue;
+        std::string const& origin = origin_of(plan, plan.knowledge_base(base_of(treatment))).name;
+        Treatment const* const policy = find_target(plan, [&](Treatment const& t) {
+            return t.policy_of == origin && t.knowledge.empty() && t.name != name && t.config == treatment.config;
+        });
+        if (policy == nullptr) continue;
+        Treatment const* const none = find_target(plan, [&](Treatment const& t) {
+            return base_of(t).empty() && t.policy_of.empty() && t.config == policy->config;
+        });
+        if (none == nullptr) continue;
+        for (Milestone const& milestone : milestones) {
+            if (milestone.treatment != name) continue;
+            int const generation = milestone.generation;
+            double const* const of_policy = balls_at(milestones, policy->name, generation);
+            double const* const of_none = balls_at(milestones, none->name, generation);
+            if (of_policy == nullptr || of_none == nullptr || *of_policy <= *of_none) continue;
+            rows.push_back({name, policy->name, none->name, generation, milestone.balls, *of_policy, *of_none,
+                            (milestone.balls - *of_none) / (*of_policy - *of_none)});
+        }
+    }
+    return rows;
+}
+
+}   // namespace lore
