@@ -50,17 +50,18 @@ struct WindowValues {
 WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper> const& shapers) {
     WindowValues found;
     std::vector<Window> const windows = windows_of(trace, window_length);
-    std::vector<std::vector<double>> values;
+    std::vector<FoundValues> values;
     for (Shaper const& shaper : shapers) values.push_back(values_of(shaper, windows));
     found.values = product_of(values);
-    for (std::vector<double> const& of_base : values)
+    for (FoundValues const& of_base : values)
         for (std::size_t i = 0; i < windows.size(); ++i)
-            if (of_base[i] == no_feature_value) found.values[i] = std::numeric_limits<double>::quiet_NaN();
+            if (!of_base[i]) found.values[i] = std::numeric_limits<double>::quiet_NaN();
     if (shapers.size() == 1) {
         auto const values = shapers.front().base().values();
         auto const [least, most] = std::minmax_element(values.begin(), values.end());
         found.lowest = *least;
         found.highest = *most;
+        found.not_found = shapers.front().nothing_shown();
     } else {
         found.not_found = 0;
         found.highest = 0;

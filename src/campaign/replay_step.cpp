@@ -83,14 +83,14 @@ Replay replay_of(RunDirectory const& run, std::string const& step, std::string s
     return replay;
 }
 
-std::vector<double> values_by(std::string const& knowledge, CampaignDirectory const& directory, Trace const& trace) {
+FoundValues values_by(std::string const& knowledge, CampaignDirectory const& directory, Trace const& trace) {
     Shaper const shaper{read_knowledge_base(directory.knowledge(knowledge))};
     return values_of(shaper, windows_of(trace, shaper.base().config().window_length));
 }
 
 std::vector<double> product_by(std::vector<std::string> const& factors, CampaignDirectory const& directory,
                                Trace const& trace) {
-    std::vector<std::vector<double>> values;
+    std::vector<FoundValues> values;
     for (std::string const& name : factors) {
         values.push_back(values_by(name, directory, trace));
         if (values.back().size() != values.front().size())
@@ -149,9 +149,14 @@ void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, Campa
 
     Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
     all.panels = panels_to_draw(plan, from);
-    for (PanelValues& panel : all.panels)
-        panel.values = panel.figure == "figure6" ? product_by(plan.figures.figure6, from, trace)
-                                                 : values_by(panel.knowledge, from, trace);
+    for (PanelValues& panel : all.panels) {
+        if (panel.figure == "figure6") {
+            panel.values = product_by(plan.figures.figure6, from, trace);
+            continue;
+        }
+        for (std::optional<double> const value : values_by(panel.knowledge, from, trace))
+            panel.values.push_back(value.value_or(no_feature_value));
+    }
     write_replays(into, all);
 }
 

@@ -1,6 +1,7 @@
 #include <lore/evolution/summary.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace lore {
@@ -15,6 +16,7 @@ GenerationSummary summarize(GenerationReport const& report) {
 
     std::map<std::array<double, 3>, int> sharing;
     int at_max = 0;
+    summary.best_shaping = -std::numeric_limits<double>::infinity();
     for (Individual const& member : members) {
         Birth const& birth = *member.birth;
         summary.best_balls = std::max(summary.best_balls, birth.balls);

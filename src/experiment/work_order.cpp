@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 #include <filesystem>
 
 namespace lore {
@@ -53,11 +51,6 @@ void check_fit(KnowledgeBase const& base, ExperimentConfig const& config, std::s
                            ours.match_threshold),
                "Build another, or set knowledge.match_threshold.");
     if (base.size() == 0) refuse("it has no features", "Build another.");
-    double const lowest = *std::min_element(base.values().begin(), base.values().end());
-    if (config.evolution.shaping.rule == ShapingRule::max && lowest <= no_feature_value)
-        refuse(fmt::format("it has values down to {}, and rule max takes {} for a robot that shows no feature", lowest,
-                           no_feature_value),
-               "Set shaping.rule to distinct, sum or share, or give the base other values with 'lore-kb revalue'.");
 }
 
 }   // namespace

@@ -3,6 +3,7 @@
 #include <lore/core/names.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 
@@ -24,7 +25,8 @@ struct Shaper::State {
     KnowledgeBase base;
     ShapingRule rule;
     std::unique_ptr<FeatureIndex> index;
-    double highest = no_feature_value;
+    double highest = -std::numeric_limits<double>::infinity();
+    double nothing_shown = no_feature_value;
     std::mutex mutex;                                   ///< guards idle
     std::vector<std::unique_ptr<FeatureSearch>> idle;   ///< searches that are not lent now
 };
@@ -42,12 +44,16 @@ Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexKind kind)
     state_->index = make_index(kind, kept.config());
     for (int feature = 0; feature < kept.size(); ++feature) state_->index->add(kept.window(feature));
     state_->index->set_values(kept.values());
-    for (double const value : kept.values()) state_->highest = std::max(state_->highest, value);
+    for (double const value : kept.values()) {
+        state_->highest = std::max(state_->highest, value);
+        if (value <= state_->nothing_shown) state_->nothing_shown = value - 1;
+    }
 }
 
 KnowledgeBase const& Shaper::base() const { return state_->base; }
 ShapingRule Shaper::rule() const { return state_->rule; }
 double Shaper::highest_value() const { return state_->highest; }
+double Shaper::nothing_shown() const { return state_->nothing_shown; }
 
 Shaper::Reader::Reader(Shaper const& shaper) : loan_(std::make_unique<Loan>()) {
     State& state = *shaper.state_;
@@ -97,7 +103,7 @@ double Shaper::Reader::value(ShapingState& state) const {
     std::sort(state.shown.begin(), state.shown.end());
     state.shown.erase(std::unique(state.shown.begin(), state.shown.end()), state.shown.end());
     switch (loan_->owner->rule) {
-    case ShapingRule::max: return state.best;
+    case ShapingRule::max: return std::isinf(state.best) ? loan_->owner->nothing_shown : state.best;
     case ShapingRule::sum: return state.sum;
     case ShapingRule::share: return no_feature_value;
     case ShapingRule::distinct: break;

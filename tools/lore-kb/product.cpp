@@ -43,12 +43,13 @@ void product(Program const& program, ProductOptions const& options) {
     csv += '\n';
     int const length = shapers.front().base().config().window_length;
     std::vector<Window> const windows = windows_of(trace, length);
-    std::vector<std::vector<double>> values;
+    std::vector<FoundValues> values;
     for (Shaper const& shaper : shapers) values.push_back(values_of(shaper, windows));
     std::vector<double> const products = product_of(values);
     for (std::size_t w = 0; w < windows.size(); ++w) {
         fmt::format_to(std::back_inserter(csv), "{},{},{}", w, w * static_cast<std::size_t>(length), products[w]);
-        for (std::vector<double> const& of_base : values) fmt::format_to(std::back_inserter(csv), ",{}", of_base[w]);
+        for (FoundValues const& of_base : values)
+            fmt::format_to(std::back_inserter(csv), ",{}", of_base[w].value_or(no_feature_value));
         csv += '\n';
     }
     auto const salient = std::count_if(products.begin(), products.end(), [](double product) { return product != 0; });

@@ -3,6 +3,7 @@
 #include <lore/knowledge/index.h>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -10,6 +11,8 @@
 
 namespace lore {
 
+/// What stands for RS without a knowledge base, and by rule max for that of somebody who shows no feature of a base
+/// whose values are all larger (Shaper::nothing_shown).
 inline constexpr double no_feature_value = -1.0;
 
 /// How the features that an individual shows become one number, RS(x); v_b is the value of feature b.
@@ -25,7 +28,8 @@ ShapingRule shaping_rule(std::string_view name);   ///< throws UsageError
 
 /// What the windows of one individual, seen one after the other, have shown so far.
 struct ShapingState {
-    double best = no_feature_value;     ///< rule max: RS of the windows seen
+    /// Rule max: the largest value shown; below every number as long as no feature was.
+    double best = -std::numeric_limits<double>::infinity();
     double sum = 0;                     ///< rule sum: RS of the windows seen
     std::vector<std::uint32_t> shown;   ///< rules distinct and share: the features matched, a showing each
 };
@@ -37,7 +41,11 @@ public:
     explicit Shaper(KnowledgeBase, ShapingRule = ShapingRule::max, IndexKind = IndexKind::exact);
     KnowledgeBase const& base() const;
     ShapingRule rule() const;
-    double highest_value() const;   ///< no_feature_value for an empty base
+    double highest_value() const;   ///< -infinity for an empty base
+    /// RS by rule max of somebody who shows no feature: less than any value of the base, so that showing nothing ranks
+    /// below showing anything (paper). It is no_feature_value, -1, unless the base has a value of -1 or less: then one
+    /// less than the smallest.
+    double nothing_shown() const;
 
     /// One user's access, with a search of its own, for one thread at a time. Borrowed from the Shaper and given back
     /// by the destructor, so that the search's cache serves the next user.

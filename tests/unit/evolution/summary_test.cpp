@@ -52,6 +52,15 @@ TEST(Summarize, gives_the_figures_of_a_hand_worked_generation) {
     EXPECT_EQ(summary.steps, 12000u);
 }
 
+TEST(Summarize, has_the_best_shaping_also_where_all_are_negative) {
+    EvolutionState state;
+    state.population.members = {member(0, 0, -4.0, 36, 0), member(0, 0, -2.5, 36, 0)};
+    GenerationReport report;
+    report.state = &state;
+    EXPECT_EQ(summarize(report).best_shaping, -2.5);
+    EXPECT_EQ(summarize(report).shaping_at_max, 0.5);
+}
+
 TEST(Summarize, has_no_share_at_the_best_shaping_where_nobody_matched_a_feature) {
     EvolutionState state;
     state.population.members = {member(0, 0, no_feature_value, 36, 0), member(0, 0, no_feature_value, 36, 0)};

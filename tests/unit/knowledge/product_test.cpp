@@ -8,19 +8,19 @@ using namespace lore;
 using lore::test::base_of;
 using lore::test::trace_of;
 
-TEST(ValuesOf, are_those_of_the_matched_features_and_minus_one_where_none_matches) {
-    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {2.0, 5.0})};
+TEST(ValuesOf, are_those_of_the_matched_features_and_absent_where_none_matches) {
+    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {-1.0, 5.0})};
     Trace const trace = trace_of({{0x01F, 0.5f}, {0x1FF, 0.5f}, {0x000, 0.5f}});
-    EXPECT_EQ(values_of(shaper, windows_of(trace, 1)), (std::vector<double>{5, no_feature_value, 2}));
+    EXPECT_EQ(values_of(shaper, windows_of(trace, 1)), (FoundValues{5, std::nullopt, -1}));
 }
 
 TEST(ProductOf, multiplies_by_window_and_is_0_where_some_base_does_not_find_it) {
-    std::vector<std::vector<double>> const values{{2, 3, no_feature_value, no_feature_value},
-                                                  {4, no_feature_value, 5, no_feature_value}};
-    EXPECT_EQ(product_of(values), (std::vector<double>{8, 0, 0, 0}));
+    std::vector<FoundValues> const values{{2, 3, std::nullopt, std::nullopt, -1},
+                                          {4, std::nullopt, 5, std::nullopt, 2}};
+    EXPECT_EQ(product_of(values), (std::vector<double>{8, 0, 0, 0, -2}));
 }
 
 TEST(ProductOf, a_single_base_is_its_values_with_0_for_not_found) {
-    std::vector<std::vector<double>> const values{{2, 0, no_feature_value}};
+    std::vector<FoundValues> const values{{2, 0, std::nullopt}};
     EXPECT_EQ(product_of(values), (std::vector<double>{2, 0, 0}));
 }

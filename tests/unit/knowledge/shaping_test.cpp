@@ -28,6 +28,27 @@ TEST(Shaper, gives_minus_one_where_no_window_matches) {
     EXPECT_EQ(Shaper{base_of({}, {})}.shaping(windows_of(trace, 1)), no_feature_value);
 }
 
+TEST(Shaper, takes_negative_values_as_any_others_by_rule_max) {
+    Shaper const shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {-3.0, -1.0, -5.0})};
+    EXPECT_EQ(shaper.highest_value(), -1.0);
+    EXPECT_EQ(shaper.nothing_shown(), -6.0);
+    auto const shaping_of = [&](std::initializer_list<test::Step> steps) {
+        Trace const trace = trace_of(steps);
+        return shaper.shaping(windows_of(trace, 1));
+    };
+    EXPECT_EQ(shaping_of({{0x1E0, 0.5f}}), -5.0);
+    EXPECT_EQ(shaping_of({{0x1E0, 0.5f}, {0x000, 0.5f}}), -3.0);
+    EXPECT_EQ(shaping_of({{0x1E0, 0.5f}, {0x01F, 0.5f}}), -1.0);
+    EXPECT_EQ(shaping_of({{0x0AA, 0.5f}}), -6.0) << "below all who show something";
+    EXPECT_TRUE(shaper.reader().may_matter(std::vector<std::uint16_t>{0x1E0}, {}));
+}
+
+TEST(Shaper, gives_minus_one_for_nothing_as_long_as_every_value_is_larger) {
+    EXPECT_EQ(Shaper{base_of({{0x000, 0.5f}}, {0.0})}.nothing_shown(), -1.0);
+    EXPECT_EQ((Shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {2.0, -0.5})}.nothing_shown()), -1.0);
+    EXPECT_EQ((Shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {-1.0, 2.0})}.nothing_shown()), -2.0);
+}
+
 TEST(Shaper, adds_every_showing_by_rule_sum_and_every_feature_once_by_rule_distinct) {
     KnowledgeBase const base = base_of({{0x000, 0.5f}, {0x01F, 0.5f}, {0x1E0, 0.5f}}, {2.0, -5.0, 7.0});
     Trace const trace = trace_of({{0x01F, 0.5f}, {0x000, 0.5f}, {0x001, 0.5f}, {0x0AA, 0.5f}});
@@ -92,7 +113,10 @@ TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) 
         Trace const trace = test::lifelike_trace(rng, 2000);
         builder.add_individual({windows_of(trace, config.window_length), static_cast<double>(rng.below(8))});
     }
-    KnowledgeBase const base = randomize(std::move(builder).finish({}), 5);
+    KnowledgeBase const drawn = randomize(std::move(builder).finish({}), 5);
+    std::vector<double> values{drawn.values().begin(), drawn.values().end()};
+    for (double& value : values) value -= 4;   // about half of them negative
+    KnowledgeBase const base = drawn.with_values(std::move(values), {});
     Shaper const shaper{base};
     auto const scan = make_scan_index(config);
     for (int i = 0; i < base.size(); ++i) scan->add(base.window(i));
@@ -103,7 +127,7 @@ TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) 
         Trace const trace = test::lifelike_trace(again, 2000);
         rng.bits();
         std::vector<Window> const windows = windows_of(trace, config.window_length);
-        double expected = no_feature_value;
+        double expected = shaper.nothing_shown();
         for (Window const& window : windows)
             if (Match const m = search->match(window); m.found()) expected = std::max(expected, base.value(m.feature));
         EXPECT_EQ(shaper.shaping(windows), expected);
