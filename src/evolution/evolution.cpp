@@ -3,6 +3,7 @@
 #include "pool_distances.h"
 
 #include <lore/core/stopwatch.h>
+#include <lore/network/network.h>
 
 #include <algorithm>
 #include <cassert>
@@ -129,7 +130,8 @@ Ranking rank(Population& pool, EvolutionConfig const& config, std::uint64_t seed
         objectives.push_back(member.objectives);
     }
     int const room = std::min(config.population, static_cast<int>(pool.members.size()));
-    Ranking ranking = rank(objectives, tie_keys, room);
+    Ranking ranking =
+        rank(objectives, tie_keys, room, {config.fronts, config.ends_among_equals, config.ties == TieRule::insertion});
     for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].crowding = ranking.crowding[i];
     return ranking;
 }
@@ -178,6 +180,8 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
 
         Newborns const born = generation == 0 ? founders(founder_genomes(config, seed, origin))
                                               : breed(state.population, config, seed, generation);
+        if (config.prune)
+            for (std::shared_ptr<Birth> const& birth : born) prune(birth->genome);
         double selection_seconds = watch.lap();
 
         bool const takes_turns = config.use_shaping && config.shaping.use == ShapingUse::distance;

@@ -1,11 +1,32 @@
 #include <lore/evolution/pareto.h>
 
+#include <lore/core/error.h>
+
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 namespace lore {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> fronts_rule_names{"dominance", "sweep"};
+
+}   // namespace
+
+std::string_view name(FrontsRule rule) { return fronts_rule_names[static_cast<std::size_t>(rule)]; }
+
+FrontsRule fronts_rule(std::string_view wanted) {
+    auto const found = std::find(fronts_rule_names.begin(), fronts_rule_names.end(), wanted);
+    if (found == fronts_rule_names.end())
+        throw UsageError("'" + std::string{wanted} + "' is not a rule for fronts", "known are dominance, sweep",
+                         "Correct the name.");
+    return static_cast<FrontsRule>(found - fronts_rule_names.begin());
+}
 
 bool dominates(Objectives const& a, Objectives const& b) {
     assert(a.count == b.count);
@@ -64,8 +85,40 @@ std::vector<std::vector<int>> non_dominated_fronts(std::span<Objectives const> p
     return fronts;
 }
 
+std::vector<std::vector<int>> fronts_by_sweep(std::span<Objectives const> points,
+                                              std::span<std::uint64_t const> tie_key) {
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        if (points[a].value != points[b].value) return points[a].value > points[b].value;
+        if (tie_key[a] != tie_key[b]) return tie_key[a] < tie_key[b];
+        return a < b;
+    });
+    auto const second = [&](int i) { return points[i].value[1]; };
+    std::vector<std::vector<int>> fronts;
+    for (int const i : order) {
+        assert(points[i].count == 2);
+        if (fronts.empty() || second(i) <= second(fronts.back().back())) {
+            fronts.push_back({i});
+            continue;
+        }
+        // The latest points of the fronts never rise in their second objective.
+        std::partition_point(fronts.begin(), fronts.end(), [&](std::vector<int> const& members) {
+            return second(members.back()) > second(i);
+        })->push_back(i);
+    }
+    for (std::vector<int>& members : fronts) std::sort(members.begin(), members.end());
+    return fronts;
+}
+
+bool stands_before(std::span<Objectives const> points, int a, int b, int last) {
+    for (int k = last; k >= 0; --k)
+        if (points[a].value[k] != points[b].value[k]) return points[a].value[k] > points[b].value[k];
+    return a < b;
+}
+
 std::vector<double> crowding_distances(std::span<Objectives const> points, std::span<int const> front,
-                                       std::span<std::uint64_t const> tie_key) {
+                                       std::span<std::uint64_t const> tie_key, CrowdingRules const& rules) {
     std::vector<double> crowding(front.size(), 0.0);
     if (front.empty()) return crowding;
     std::vector<std::size_t> order(front.size());
@@ -73,15 +126,17 @@ std::vector<double> crowding_distances(std::span<Objectives const> points, std::
         auto const value = [&](std::size_t place) { return points[front[place]].value[k]; };
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            if (rules.insertion) return stands_before(points, front[a], front[b], k);
             if (value(a) != value(b)) return value(a) < value(b);
             if (tie_key[front[a]] != tie_key[front[b]]) return tie_key[front[a]] < tie_key[front[b]];
             return a < b;
         });
-        double const range = value(order.back()) - value(order.front());
-        if (range == 0) continue;
+        double const range = std::abs(value(order.back()) - value(order.front()));
+        if (range == 0 && !rules.ends_among_equals) continue;
         crowding[order.front()] = crowding[order.back()] = std::numeric_limits<double>::infinity();
+        if (range == 0) continue;
         for (std::size_t place = 1; place + 1 < order.size(); ++place)
-            crowding[order[place]] += (value(order[place + 1]) - value(order[place - 1])) / range;
+            crowding[order[place]] += std::abs(value(order[place + 1]) - value(order[place - 1])) / range;
     }
     return crowding;
 }

@@ -12,7 +12,7 @@ namespace lore {
 
 namespace {
 
-constexpr auto rule_names = names_for<TieRule>("random", "older", "younger");
+constexpr auto rule_names = names_for<TieRule>("random", "older", "younger", "insertion");
 
 /// Shuffles of 0 .. members-1 laid end to end, at least `length` long, in which no pair (2k, 2k+1) is one member twice
 /// (unless there is only one).
@@ -40,7 +40,8 @@ std::uint64_t tie_key(TieRule rule, std::uint64_t seed, int generation, Individu
     switch (rule) {
     case TieRule::older: return by_birth;
     case TieRule::younger: return ~by_birth;
-    case TieRule::random: break;
+    case TieRule::random:
+    case TieRule::insertion: break;
     }
     // The stream's counter has one word for the id, which has two: the generation of birth goes to its upper half. Two
     // ids share a counter, and so a key, only beyond 65 536 slots or generations.
@@ -68,19 +69,24 @@ std::vector<int> tournament_winners(std::span<Individual const> members, int cou
     return winners;
 }
 
-Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> tie_keys, int survivors) {
+Ranking rank(std::span<Objectives const> pool, std::span<std::uint64_t const> tie_keys, int survivors,
+             RankingRules const& rules) {
     assert(pool.size() == tie_keys.size() && survivors <= static_cast<int>(pool.size()));
     Ranking ranking;
     ranking.crowding.resize(pool.size());
-    std::vector<std::vector<int>> fronts = non_dominated_fronts(pool);
+    bool const sweeps = rules.fronts == FrontsRule::sweep && !pool.empty() && pool.front().count == 2;
+    std::vector<std::vector<int>> fronts = sweeps ? fronts_by_sweep(pool, tie_keys) : non_dominated_fronts(pool);
     ranking.fronts = static_cast<int>(fronts.size());
     for (std::vector<int>& front : fronts) {
-        std::vector<double> const crowding = crowding_distances(pool, front, tie_keys);
+        bool const inserts = rules.insertion && front.size() <= most_inserted;
+        std::vector<double> const crowding =
+            crowding_distances(pool, front, tie_keys, {rules.ends_among_equals, inserts});
         for (std::size_t place = 0; place < front.size(); ++place) ranking.crowding[front[place]] = crowding[place];
         std::size_t const room = static_cast<std::size_t>(survivors) - ranking.survivors.size();
         if (room == 0) continue;
         std::sort(front.begin(), front.end(), [&](int a, int b) {
             if (ranking.crowding[a] != ranking.crowding[b]) return ranking.crowding[a] > ranking.crowding[b];
+            if (inserts) return stands_before(pool, a, b, pool[a].count - 1);
             if (tie_keys[a] != tie_keys[b]) return tie_keys[a] < tie_keys[b];
             return a < b;
         });

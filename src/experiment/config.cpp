@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -108,6 +109,9 @@ void check(ExperimentConfig const& config, std::string const& name) {
         refuse("evolution.founders",
                fmt::format("{} is less than the population of {}", evolution.founders, evolution.population),
                "Take at least as many.");
+    if (evolution.ties == TieRule::insertion && evolution.shaping.use == ShapingUse::ties)
+        refuse("evolution.ties", "insertion leaves equals where they stand, and shaping.use = ties orders them",
+               "Take one of the two.");
     int const root = evolution.mutation.eta + 1;
     if ((root & (root - 1)) != 0)
         refuse("mutation.eta", fmt::format("{} + 1 is not a power of two", evolution.mutation.eta),
@@ -143,6 +147,8 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
         read_settings(document_of(override, settings), settings);
         origin = fmt::format("{} with --set {}", name, override);
     }
+    if (config.squared_threshold > 0)
+        config.knowledge.match_threshold = static_cast<float>(std::sqrt(config.squared_threshold));
     check(config, origin);
     return config;
 }

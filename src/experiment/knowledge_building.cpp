@@ -179,7 +179,7 @@ void simulate(RunDirectory const& run, Batch& batch) {
 /// Calls its argument for each individual in the order of building.
 using Source = std::function<void(std::function<void(IndividualId, Genome const&, int balls)> const&)>;
 
-KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig const& config, IndexKind kind,
+KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig const& config, IndexChoice index,
                     Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence) {
     BatchQueue queue;
     std::thread simulator{[&] {
@@ -210,21 +210,21 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
         }
     } const join{queue, simulator};
 
-    KnowledgeBuilder builder{config, make_index(kind, config), std::move(evidence)};
+    KnowledgeBuilder builder{config, make_index(index, config), std::move(evidence)};
     int const threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
             exhibits.push_back({windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i]),
                                 batch.traces[i].deliveries, batch.ids[i].generation});
-        if (kind == IndexKind::exact) {
+        if (index.kind == IndexKind::exact) {
             builder.add_individuals(exhibits, threads);
         } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
             for (Exhibit const& exhibit : exhibits) builder.add_individual(exhibit);
         }
         observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
-    provenance.index = name(kind);
+    provenance.index = text(index);
     provenance.sources = {run.path};
     provenance.task = fmt::format("{} {}", run.arena.name, run.arena.task.name);
     return std::move(builder).finish(std::move(provenance));
@@ -235,7 +235,7 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
 std::vector<double> default_gammas() { return {0.99, 0.995, 0.998}; }
 
 KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individual, KnowledgeConfig const& config,
-                                   IndexKind kind, Provenance provenance, BuildingObserver const& observe,
+                                   IndexChoice index, Provenance provenance, BuildingObserver const& observe,
                                    std::vector<double> gammas) {
     provenance.kind = "lineage";
     provenance.best_balls = individual.balls;
@@ -243,10 +243,10 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individ
         for (Birth const* ancestor : lineage_of(individual)) each(ancestor->id, ancestor->genome, ancestor->balls);
     };
     EvidenceConfig evidence{std::move(gammas), true, 0};
-    return build(run, lineage, config, kind, std::move(provenance), observe, std::move(evidence));
+    return build(run, lineage, config, index, std::move(provenance), observe, std::move(evidence));
 }
 
-KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexKind kind,
+KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexChoice index,
                                Provenance provenance, BuildingObserver const& observe, std::vector<double> gammas,
                                int success_balls) {
     assert(every >= 1);
@@ -263,7 +263,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
     };
     if (success_balls == 0) success_balls = std::max(1, (provenance.best_balls + 1) / 2);
     EvidenceConfig evidence{std::move(gammas), false, success_balls};
-    return build(run, all_individuals, config, kind, std::move(provenance), observe, std::move(evidence));
+    return build(run, all_individuals, config, index, std::move(provenance), observe, std::move(evidence));
 }
 
 std::uint64_t archived_individuals(RunDirectory const& run) {

@@ -139,7 +139,13 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("population", evolution.population, 2, 100000, "survivors of a generation, and children of one");
     d.add("founders", evolution.founders, 2, 200000, "random individuals of generation 0; not fewer than population");
     d.add("generations", evolution.generations, 0, any, "length of the run [generations]", Affects::length);
-    d.add("ties", evolution.ties, tie_rule, "order among equals in sorts and cuts: random, older or younger first");
+    d.add("ties", evolution.ties, tie_rule,
+          "order among equals in sorts and cuts: random, older or younger first, or insertion, the predecessor's");
+    d.add("fronts", evolution.fronts, fronts_rule,
+          "of two objectives: dominance, or sweep, by which the predecessor puts equals into successive fronts");
+    d.add("ends_among_equals", evolution.ends_among_equals,
+          "crowding: two members of a front that is equal in an objective are its ends, as with the predecessor");
+    d.add("prune", evolution.prune, "newborns lose the hidden neurons that reach no output, as with the predecessor");
     d.add("use_diversity", evolution.use_diversity, "objective: behavioral diversity");
     d.add("use_shaping", evolution.use_shaping, "objective: reward shaping; set by --kb");
 
@@ -179,6 +185,8 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
           "what a knowledge base must have been cut with [steps]");
     d.add("match_threshold", config.knowledge.match_threshold, 0.0, 1000.0,
           "a window nearer than this to a feature matches it [L2]");
+    d.add("squared_threshold", config.squared_threshold, 0.0, 1e6,
+          "if not 0, match_threshold becomes its square root: the threshold is one of the squared distance");
 
     d.section("shaping");
     d.add("rule", evolution.shaping.rule, shaping_rule,

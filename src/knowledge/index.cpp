@@ -74,8 +74,13 @@ std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const& config) {
     return std::make_unique<ScanIndex>(config);
 }
 
-std::unique_ptr<FeatureIndex> make_index(IndexKind kind, KnowledgeConfig const& config) {
-    return kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config);
+std::string text(IndexChoice const& choice) {
+    bool const usual = choice.kind == IndexKind::exact || choice.checks == usual_checks;
+    return usual ? std::string{name(choice.kind)} : fmt::format("{} with {} checks", name(choice.kind), choice.checks);
+}
+
+std::unique_ptr<FeatureIndex> make_index(IndexChoice choice, KnowledgeConfig const& config) {
+    return choice.kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config, 4, choice.checks);
 }
 
 }   // namespace lore

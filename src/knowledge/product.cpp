@@ -20,8 +20,7 @@ std::vector<double> product_of(std::span<FoundValues const> values) {
     std::vector<double> product(values.front().size(), 1.0);
     for (FoundValues const& factors : values) {
         assert(factors.size() == product.size());
-        for (std::size_t w = 0; w < product.size(); ++w)
-            product[w] *= factors[w].value_or(0.0);
+        for (std::size_t w = 0; w < product.size(); ++w) product[w] *= factors[w].value_or(0.0);
     }
     return product;
 }

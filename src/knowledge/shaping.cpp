@@ -38,10 +38,10 @@ struct Shaper::Reader::Loan {
     std::span<double const> values;
 };
 
-Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexKind kind)
+Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexChoice index)
     : state_(std::make_shared<State>(std::move(base), rule)) {
     KnowledgeBase const& kept = state_->base;
-    state_->index = make_index(kind, kept.config());
+    state_->index = make_index(index, kept.config());
     for (int feature = 0; feature < kept.size(); ++feature) state_->index->add(kept.window(feature));
     state_->index->set_values(kept.values());
     for (double const value : kept.values()) {

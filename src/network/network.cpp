@@ -68,6 +68,25 @@ Network compile(Genome const& genome) {
     return network;
 }
 
+void prune(Genome& genome) {
+    std::vector<int> const numbers = number_useful_neurons(genome);
+    auto const is_useless = [&](NeuronIndex neuron) {
+        return neuron >= first_hidden && numbers[neuron - first_hidden] < 0;
+    };
+    auto const renumber = [&](NeuronIndex& neuron) {
+        if (neuron >= first_hidden) neuron = static_cast<NeuronIndex>(first_hidden + numbers[neuron - first_hidden]);
+    };
+    std::erase_if(genome.edges, [&](Edge const& edge) { return is_useless(edge.source) || is_useless(edge.target); });
+    for (Edge& edge : genome.edges) {
+        renumber(edge.source);
+        renumber(edge.target);
+    }
+    std::vector<float> biases(genome.biases.begin(), genome.biases.begin() + effector_count);
+    for (std::size_t h = 0; h < numbers.size(); ++h)
+        if (numbers[h] >= 0) biases.push_back(genome.biases[effector_count + h]);
+    genome.biases = std::move(biases);
+}
+
 void tick(Network const& network, std::span<float const, sensor_count> inputs, NetworkState& state,
           std::span<float, effector_count> outputs) {
     std::array<float, sensor_count + most_hidden> before;

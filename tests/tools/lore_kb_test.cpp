@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <sstream>
 
 using namespace lore;
@@ -116,6 +117,7 @@ TEST_F(LoreKb, refuses_clones_that_cannot_be) {
     expect_refusal("clone missing.lorekb --out never", 2, "missing.lorekb");
     expect_done("build run --out kb.lorekb -q");
     expect_refusal("clone kb.lorekb --count 0 --out never", 2, "--count");
+    expect_refusal("clone kb.lorekb --count 200001 --out never", 2, "--count");
     expect_refusal("clone kb.lorekb --hidden 65 --out never", 2, "--hidden");
     expect_refusal("clone kb.lorekb --windows 50001 --out never", 2, "Ask for 1 to 50000");
     expect_refusal("clone kb.lorekb --seed -1 --out never", 2, "no whole number from 0");
@@ -150,6 +152,10 @@ TEST_F(LoreKb, queries_windows_of_an_npy_file) {
 TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
     expect_done("build run --out kb.lorekb --index flann");
     EXPECT_EQ(read_knowledge_base(scratch.file("kb.lorekb")).provenance().index, "flann");
+    expect_done("build run --out few.lorekb --index flann --checks 8");
+    EXPECT_EQ(read_knowledge_base(scratch.file("few.lorekb")).provenance().index, "flann with 8 checks");
+    expect_refusal("build run --out never --checks 8", 2, "the exact index has no --checks");
+    expect_refusal("build run --out never --index flann --checks 0", 2, "--checks");
     expect_done("export kb.lorekb --npy exported");
     expect_done("query kb.lorekb --windows exported/features.npy --csv found.csv --index exact");
     std::vector<std::string> const lines = lines_of("found.csv");
@@ -221,6 +227,24 @@ TEST_F(LoreKb, values_features_anew_from_the_evidence_of_the_build) {
     expect_refusal("build run --value return --gamma 1 --out never", 2, "discount");
     expect_refusal("build run --gammas 0.5 1 --out never", 2, "discount");
     expect_refusal("build run --success 2 --out never", 2, "--all");
+}
+
+TEST_F(LoreKb, refuses_evidence_that_would_give_no_number) {
+    auto const write = [&](std::uint64_t showings, double return_sum) {
+        KnowledgeArrays arrays{{0}, std::vector<float>(6), {2.0}, {4.0}, {2}};
+        arrays.evidence.gammas = {0.5};
+        arrays.evidence.showings = {showings};
+        arrays.evidence.return_sums = {return_sum};
+        write_knowledge_base(scratch.file("kb.lorekb"), KnowledgeBase{{1, 1.83f}, {}, std::move(arrays)});
+    };
+    std::string const revalue = "revalue kb.lorekb --value return --gamma 0.5 --out never";
+    write(0, 0);
+    expect_refusal(revalue, 1, "kb.lorekb");
+    write(1, std::numeric_limits<double>::quiet_NaN());
+    expect_refusal(revalue, 1, "a feature's evidence is not finite");
+    write(1, 3);
+    expect_done("revalue kb.lorekb --value return --gamma 0.5 --out return.lorekb");
+    EXPECT_EQ(read_knowledge_base(scratch.file("return.lorekb")).value(0), 3);
 }
 
 TEST_F(LoreKb, reads_a_base_of_the_first_layout_but_finds_no_evidence_in_it) {

@@ -16,6 +16,7 @@ namespace {
 
 struct BuildOptions {
     std::string run, out, index = "exact";
+    std::optional<int> checks;
     std::optional<std::string> individual;
     bool all = false;
     int every = 1;   ///< of all
@@ -58,7 +59,7 @@ void build(Program const& program, BuildOptions const& options) {
     check_evidence_of(options.all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
     std::vector<double> const gammas = gammas_of(options, value);
     check_writable(options.out);
-    IndexKind const kind = index_kind(options.index);
+    IndexChoice const index = index_choice(options.index, options.checks);
     RunDirectory const run = open_run(options.run);
     KnowledgeConfig const config = config_of(options, run);
     auto const individual = run.individual(options.individual.value_or("best"));
@@ -72,8 +73,8 @@ void build(Program const& program, BuildOptions const& options) {
     Provenance provenance;
     provenance.made_by = made_by(program);
     KnowledgeBase const base =
-        options.all ? knowledge_of_all(run, options.every, config, kind, provenance, observe, gammas, options.success)
-                    : knowledge_of_lineage(run, *individual, config, kind, provenance, observe, gammas);
+        options.all ? knowledge_of_all(run, options.every, config, index, provenance, observe, gammas, options.success)
+                    : knowledge_of_lineage(run, *individual, config, index, provenance, observe, gammas);
     write_knowledge_base(options.out, value.rule == ValueRule::mean ? base : valued(base, value));
     say(program, fmt::format("wrote {}: {} features from {} windows of {} individuals", options.out, base.size(),
                              base.provenance().windows, base.provenance().individuals));
@@ -87,7 +88,7 @@ void add_build(CLI::App& app, Program& program) {
     command->add_option("RUN_DIR", options->run, "directory of a run")->required();
     add_out(command, options->out);
     add_individual(command, options->individual);
-    add_index(command, options->index);
+    add_index(command, options->index, options->checks);
     auto* const all = command->add_flag(
         "--all", options->all, "from every individual ever evaluated, in order of birth (needs '--archive all')");
     command->add_option("--every", options->every, "of all, only the first and every N-th after it")

@@ -30,9 +30,19 @@ void add_out(CLI::App* command, std::string& path) {
     command->add_option("--out", path, "knowledge base to write")->required();
 }
 
-void add_index(CLI::App* command, std::string& name) {
+void add_index(CLI::App* command, std::string& name, std::optional<int>& checks) {
     command->add_option("--index", name, "exact, or flann: approximate, and not repeatable from run to run")
         ->capture_default_str();
+    command->add_option("--checks", checks, "of flann: leaves that a search looks at; FLANN's own default is 32")
+        ->check(CLI::Range(1, 1000000000))
+        ->default_str(std::to_string(usual_checks));
+}
+
+IndexChoice index_choice(std::string const& name, std::optional<int> checks) {
+    IndexChoice const choice{index_kind(name), checks.value_or(usual_checks)};
+    if (checks && choice.kind == IndexKind::exact)
+        throw UsageError("the exact index has no --checks", "it finds every match", "Leave them out.");
+    return choice;
 }
 
 void add_individual(CLI::App* command, std::optional<std::string>& id) {

@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include <lore/experiment/run_directory.h>
+#include <lore/knowledge/index.h>
 #include <lore/knowledge/value.h>
 
 #include <functional>
@@ -46,7 +47,10 @@ void add_verify(CLI::App&, Program&);
 // Options that several subcommands have.
 void add_base(CLI::App*, std::string& path);
 void add_out(CLI::App*, std::string& path);
-void add_index(CLI::App*, std::string& name);
+/// --index and --checks.
+void add_index(CLI::App*, std::string& name, std::optional<int>& checks);
+/// Throws UsageError for an unknown index, and for checks of an exact one.
+IndexChoice index_choice(std::string const& name, std::optional<int> checks);
 /// Left empty where it is not given: then 'best' is meant.
 void add_individual(CLI::App*, std::optional<std::string>&);
 /// --value RULE and --gamma G.

@@ -16,6 +16,7 @@ namespace {
 
 struct QueryOptions {
     std::string base, run, windows, csv, index = "exact";
+    std::optional<int> checks;
     std::optional<std::string> individual;
 };
 
@@ -30,7 +31,7 @@ void query(Program const& program, QueryOptions const& options) {
     int const length = base.config().window_length;
     Trace const trace = options.run.empty() ? read_windows(options.windows, length)
                                             : trace_of(open_run(options.run), options.individual.value_or("best"));
-    Shaper const shaper{base, ShapingRule::max, index_kind(options.index)};
+    Shaper const shaper{base, ShapingRule::max, index_choice(options.index, options.checks)};
     auto reader = shaper.reader();
     std::string csv = "window,step,feature,distance,value,count\n";
     int row = 0, found = 0;
@@ -56,7 +57,7 @@ void add_query(CLI::App& app, Program& program) {
     command->add_option("--run", options->run, "windows of an individual of this run");
     add_individual(command, options->individual);
     command->add_option("--windows", options->windows, "windows from an NPY file, shape (n, T, 15) or (n, 15 T)");
-    add_index(command, options->index);
+    add_index(command, options->index, options->checks);
     command->add_option("--csv", options->csv, "file to write: window,step,feature,distance,value,count")->required();
 }
 

@@ -26,8 +26,11 @@ struct EvolutionConfig {
     int founders = 400;       ///< random individuals of generation 0, at least `population`
     int generations = 4000;   ///< Paper: 4000.
     TieRule ties = TieRule::random;
-    bool use_diversity = true;   ///< objective BD; measured and reported in any case
-    bool use_shaping = false;    ///< RS is used, as `shaping` says; set where a knowledge base is given
+    FrontsRule fronts = FrontsRule::dominance;   ///< of pools with two objectives
+    bool ends_among_equals = false;              ///< crowding: also where a front is equal in an objective
+    bool prune = false;                          ///< newborns lose the hidden neurons that reach no output
+    bool use_diversity = true;                   ///< objective BD; measured and reported in any case
+    bool use_shaping = false;                    ///< RS is used, as `shaping` says; set where a knowledge base is given
     ShapingConfig shaping;
     std::vector<double> feature_values;   ///< of the base; rule share alone needs them here
     DistanceSchedule distance_schedule;

@@ -21,6 +21,7 @@ struct ExperimentConfig {
     EpisodeConfig episode;
     EvolutionConfig evolution;
     KnowledgeConfig knowledge;          ///< what a --kb must fit
+    double squared_threshold = 0;       ///< if not 0, knowledge.match_threshold is its square root
     int checkpoint_generations = 100;   ///< a checkpoint every so many generations
     double checkpoint_minutes = 5;      ///< and every so many minutes
 };

@@ -23,12 +23,12 @@ using BuildingObserver = std::function<void(std::int64_t individuals, std::int64
 std::vector<double> default_gammas();
 
 /// Algorithm 1 over the lineage of `individual`, itself first. Gathers evidence of credit and of returns for `gammas`.
-KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexKind,
+KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexChoice,
                                    Provenance, BuildingObserver const&, std::vector<double> gammas = default_gammas());
 /// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
 /// after it, if that is not 1. Throws Error if the run did not keep them. Gathers evidence of contrast and of returns.
 /// `success_balls`: so many make a success; 0: half of what the best-of-run delivered, rounded up, at least 1.
-KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexKind, Provenance,
+KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexChoice, Provenance,
                                BuildingObserver const&, std::vector<double> gammas = default_gammas(),
                                int success_balls = 0);
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,18 @@ struct Match {
 enum class IndexKind : std::uint8_t { exact, flann };
 std::string_view name(IndexKind);
 IndexKind index_kind(std::string_view name);   ///< throws UsageError
+
+/// Leaves of its trees that a search by FLANN looks at: more find more of the matches, and take longer. FLANN's own
+/// default is 32.
+inline constexpr int usual_checks = 128;
+/// Which index, and how hard it looks.
+struct IndexChoice {
+    IndexChoice(IndexKind wanted, int of_flann = usual_checks) : kind(wanted), checks(of_flann) {}
+    IndexKind kind;
+    int checks;   ///< of flann; at least 1
+};
+/// "exact", "flann", "flann with 64 checks": Provenance::index.
+std::string text(IndexChoice const&);
 
 /// One user's way of asking an index: owns the scratch memory and the caches that make repeated questions cheap.
 ///
@@ -72,7 +85,7 @@ std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const&);
 /// Exact and fast: bounds by bits, then by summaries, then the exact distance (docs/design/performance.md).
 std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const&);
 /// FLANN's KDTree forest with a fixed number of checks: approximate, and not repeatable from process to process.
-std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = 128);
-std::unique_ptr<FeatureIndex> make_index(IndexKind, KnowledgeConfig const&);
+std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = usual_checks);
+std::unique_ptr<FeatureIndex> make_index(IndexChoice, KnowledgeConfig const&);
 
 }   // namespace lore

@@ -38,7 +38,7 @@ struct ShapingState {
 /// safe to use from several threads. Cheap to copy; copies share everything.
 class Shaper {
 public:
-    explicit Shaper(KnowledgeBase, ShapingRule = ShapingRule::max, IndexKind = IndexKind::exact);
+    explicit Shaper(KnowledgeBase, ShapingRule = ShapingRule::max, IndexChoice = IndexKind::exact);
     KnowledgeBase const& base() const;
     ShapingRule rule() const;
     double highest_value() const;   ///< -infinity for an empty base

@@ -26,6 +26,9 @@ struct Network {
 };
 
 Network compile(Genome const&);
+/// Removes the hidden neurons from which no output can be reached, with their edges: those that compile leaves out, so
+/// that the Network stays the same. The others keep their order, as do the edges.
+void prune(Genome&);
 
 /// What a tick changes.
 struct NetworkState {

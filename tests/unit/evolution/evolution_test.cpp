@@ -273,3 +273,23 @@ TEST(BestOfRun, has_most_balls_then_the_earliest_birth_then_the_lowest_slot) {
     }
     EXPECT_EQ(best_of_run(population).id(), (IndividualId{4, 7}));
 }
+
+TEST(Evolution, prunes_newborns_where_asked_to) {
+    SyntheticEvaluator evaluator;
+    EvolutionConfig config;
+    config.population = 20;
+    config.founders = 40;
+    config.generations = 40;
+    config.mutation.add_neuron_probability = config.mutation.delete_edge_probability = 0.9;
+    std::array<bool, 2> useless{};
+    for (bool const prunes : {false, true}) {
+        config.prune = prunes;
+        evolve(config, 1, evaluator, {}, [&](GenerationReport const& report) {
+            for (Individual const& child : report.born)
+                useless[prunes] |= compile(child.birth->genome).hidden_count < child.birth->genome.hidden_count();
+            return true;
+        });
+    }
+    EXPECT_TRUE(useless[0]);
+    EXPECT_FALSE(useless[1]);
+}

@@ -1,8 +1,10 @@
+#include <lore/core/error.h>
 #include <lore/core/random.h>
 #include <lore/evolution/pareto.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -79,6 +81,80 @@ TEST(NonDominatedFronts, equal_the_definition_for_a_pool_as_evolution_has_it) {
     std::vector<Objectives> points;
     for (int i = 0; i < 400; ++i) points.push_back(three(rng.below(6), rng.uniform(), rng.below(20) / 19.0));
     EXPECT_EQ(non_dominated_fronts(points), non_dominated_fronts_plainly(points));
+}
+
+TEST(FrontsBySweep, put_equals_of_the_last_front_into_successive_fronts) {
+    std::vector<std::uint64_t> const keys{0, 1, 2, 3, 4};
+    EXPECT_EQ(fronts_by_sweep(std::vector(3, two(2, 1)), keys), (std::vector<std::vector<int>>{{0}, {1}, {2}}));
+    EXPECT_EQ(fronts_by_sweep(std::vector(3, two(2, 1)), std::vector<std::uint64_t>{2, 0, 1}),
+              (std::vector<std::vector<int>>{{1}, {2}, {0}}));
+    // (3, 1) begins the first front, (2, 0) the second; (1, 1) joins the first, whose latest is not larger than it in
+    // the second objective, though (3, 1) dominates it.
+    EXPECT_EQ(fronts_by_sweep(std::vector{two(3, 1), two(2, 0), two(1, 1)}, keys),
+              (std::vector<std::vector<int>>{{0, 2}, {1}}));
+    // Equal points in a front that is not the last share it.
+    EXPECT_EQ(fronts_by_sweep(std::vector{two(3, 1), two(2, 0), two(1, 1), two(1, 1), two(0, 0)}, keys),
+              (std::vector<std::vector<int>>{{0, 2, 3}, {1}, {4}}));
+    EXPECT_TRUE(fronts_by_sweep({}, {}).empty());
+}
+
+TEST(FrontsBySweep, are_the_non_dominated_ones_where_no_value_occurs_twice) {
+    Stream rng{23, Purpose::test};
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<Objectives> points(rng.below(60));
+        for (Objectives& point : points) point = two(rng.uniform(), rng.uniform());
+        std::vector<std::uint64_t> keys(points.size());
+        ASSERT_EQ(fronts_by_sweep(points, keys), non_dominated_fronts_plainly(points)) << "trial " << trial;
+    }
+}
+
+TEST(FrontsRule, is_read_by_its_name) {
+    for (FrontsRule const rule : {FrontsRule::dominance, FrontsRule::sweep}) EXPECT_EQ(fronts_rule(name(rule)), rule);
+    EXPECT_THROW(fronts_rule("fast"), UsageError);
+}
+
+TEST(CrowdingDistance, gives_ends_to_a_front_of_equals_where_asked_to) {
+    std::vector<int> const front{0, 1, 2, 3};
+    std::vector<std::uint64_t> const keys{3, 0, 1, 2};
+    EXPECT_EQ(crowding_distances(std::vector(4, two(3, 0.5)), front, keys, {.ends_among_equals = true}),
+              (std::vector<double>{infinity, infinity, 0, 0}))
+        << "the first and the last by tie key";
+    // Balls are equal: they give ends, too, to the first and the last by key. Diversity 1 2 | 3 5.
+    EXPECT_EQ(crowding_distances(std::vector{two(2, 1), two(2, 3), two(2, 2), two(2, 5)}, front, keys,
+                                 {.ends_among_equals = true}),
+              (std::vector<double>{infinity, infinity, 2 / 4.0, infinity}));
+    EXPECT_EQ(crowding_distances(std::vector{two(3, 0.5)}, std::vector<int>{0}, keys, {.ends_among_equals = true}),
+              std::vector<double>{infinity});
+}
+
+TEST(CrowdingDistance, leaves_equals_where_an_insertion_sort_leaves_them) {
+    std::vector<int> const front{0, 1, 2, 3};
+    std::vector<std::uint64_t> const keys{3, 2, 1, 0};   // of no interest
+    // By the first objective, falling: 3 | 0 1 2: ends 3 and 2. By the second from there: 0 1 2 | 3: ends 0 and 3.
+    std::vector<Objectives> const points{two(0, 1), two(0, 1), two(0, 1), two(1, 0)};
+    EXPECT_EQ(crowding_distances(points, front, keys, {.insertion = true}),
+              (std::vector<double>{infinity, 0, infinity, infinity}));
+    // The order left by the first objective decides in the second: 1 0 | 2 3, then all alike: ends 1 and 3.
+    std::vector<Objectives> const alike{two(1, 5), two(2, 5), two(0, 5), two(0, 5)};
+    EXPECT_EQ(crowding_distances(alike, front, keys, {.ends_among_equals = true, .insertion = true}),
+              (std::vector<double>{1.0, infinity, 0.5, infinity}));
+}
+
+TEST(StandsBefore, is_what_stable_sorts_by_one_objective_after_the_other_give) {
+    Stream rng{24, Purpose::test};
+    for (int trial = 0; trial < 100; ++trial) {
+        std::vector<Objectives> points(1 + rng.below(16));
+        for (Objectives& point : points) point = three(rng.below(3), rng.below(3), rng.below(3));
+        std::vector<int> sorted(points.size()), compared(points.size());
+        std::iota(sorted.begin(), sorted.end(), 0);
+        std::iota(compared.begin(), compared.end(), 0);
+        for (int k = 0; k < 3; ++k) {
+            std::stable_sort(sorted.begin(), sorted.end(),
+                             [&](int a, int b) { return points[a].value[k] > points[b].value[k]; });
+            std::sort(compared.begin(), compared.end(), [&](int a, int b) { return stands_before(points, a, b, k); });
+            ASSERT_EQ(sorted, compared);
+        }
+    }
 }
 
 TEST(CrowdingDistance, of_a_hand_worked_front) {

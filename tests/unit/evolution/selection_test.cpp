@@ -37,7 +37,7 @@ std::vector<std::uint64_t> rising_keys(std::size_t count) {
 }   // namespace
 
 TEST(TieRule, is_read_by_its_name) {
-    for (TieRule const rule : {TieRule::random, TieRule::older, TieRule::younger})
+    for (TieRule const rule : {TieRule::random, TieRule::older, TieRule::younger, TieRule::insertion})
         EXPECT_EQ(tie_rule(name(rule)), rule);
     EXPECT_THROW(tie_rule("oldest"), UsageError);
 }
@@ -141,4 +141,22 @@ TEST(Rank, never_keeps_anyone_dominated_by_someone_it_dropped) {
             for (int const i : kept) EXPECT_FALSE(dominates(pool[dropped], pool[i]));
         }
     }
+}
+
+TEST(Rank, cuts_a_small_front_as_an_insertion_sort_leaves_it) {
+    // One front; all crowding distances are 0, so that only the order of equals decides.
+    std::vector<Objectives> const few(16, two(1, 1)), many(17, two(1, 1));
+    std::vector<std::uint64_t> falling(17);
+    for (std::size_t i = 0; i < falling.size(); ++i) falling[i] = 100 - i;
+    RankingRules const rules{.insertion = true};
+    EXPECT_EQ(rank(few, std::span{falling}.first(16), 3, rules).survivors, (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(rank(many, falling, 3, rules).survivors, (std::vector<int>{16, 15, 14})) << "by key in larger fronts";
+    EXPECT_EQ(rank(few, std::span{falling}.first(16), 3).survivors, (std::vector<int>{15, 14, 13}));
+}
+
+TEST(Rank, parts_two_objectives_by_the_sweep_where_asked_to_and_three_never) {
+    std::vector<Objectives> const pairs(3, two(1, 1)), triples(3, Objectives{{1, 1, 1}, 3});
+    EXPECT_EQ(rank(pairs, rising_keys(3), 3, {.fronts = FrontsRule::sweep}).fronts, 3);
+    EXPECT_EQ(rank(pairs, rising_keys(3), 3).fronts, 1);
+    EXPECT_EQ(rank(triples, rising_keys(3), 3, {.fronts = FrontsRule::sweep}).fronts, 1);
 }

@@ -171,3 +171,24 @@ TEST(Config, survives_every_cut_and_many_changes_of_its_text) {
             complaint(changed);
         }
 }
+
+TEST(Config, reads_a_threshold_of_the_squared_distance_as_its_root) {
+    ExperimentConfig const config = parse_config("[knowledge]\nsquared_threshold = 1.83\n", "a.toml", "");
+    EXPECT_FLOAT_EQ(config.knowledge.match_threshold, 1.3527749f);
+    EXPECT_FLOAT_EQ(config.knowledge.squared_threshold(), 1.83f);
+    ExperimentConfig const again = parse_config(to_toml(config), "b.toml", "");
+    EXPECT_EQ(again.knowledge, config.knowledge);
+    EXPECT_EQ(parse_config("", "a.toml", "").knowledge.match_threshold, 1.83f);
+}
+
+TEST(Config, refuses_two_orders_of_equals_at_once) {
+    EXPECT_THROW(parse_config("[evolution]\nties = \"insertion\"\n[shaping]\nuse = \"ties\"\n", "a.toml", ""),
+                 UsageError);
+}
+
+TEST(Config, has_the_predecessors_decisions_as_settings_that_affect_results) {
+    for (char const* const setting :
+         {"evolution.ties=insertion", "evolution.fronts=sweep", "evolution.ends_among_equals=true",
+          "evolution.prune=true", "knowledge.squared_threshold=1.83"})
+        EXPECT_NE(result_settings(parse_config("", "a.toml", "", {setting})), "") << setting;
+}

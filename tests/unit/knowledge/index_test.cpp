@@ -77,3 +77,9 @@ TEST(IndexKind, is_known_by_name) {
     EXPECT_EQ(index_kind(name(IndexKind::flann)), IndexKind::flann);
     EXPECT_THROW(index_kind("kdtree"), UsageError);
 }
+
+TEST(IndexChoice, names_the_checks_of_flann_where_they_are_unusual) {
+    EXPECT_EQ(text(IndexKind::exact), "exact");
+    EXPECT_EQ(text(IndexKind::flann), "flann");
+    EXPECT_EQ(text(IndexChoice{IndexKind::flann, 64}), "flann with 64 checks");
+}

@@ -111,3 +111,23 @@ TEST(Tick, saturates_without_infinity_at_the_largest_sums) {
     EXPECT_LT(outputs[0], 1e-30f);
     EXPECT_EQ(outputs[1], 1.0f);
 }
+
+TEST(Prune, removes_what_reaches_no_output_and_leaves_the_network_as_it_was) {
+    // Hidden 15 reads an input and feeds 16; 16 feeds itself alone. Hidden 17 reads 15's input and feeds output 12.
+    Genome genome;
+    genome.biases = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f};
+    genome.edges = {{0, 15, 0.1f}, {15, 16, 0.2f}, {16, 16, 0.3f}, {0, 17, 0.4f}, {17, 12, 0.5f}, {17, 15, 0.6f}};
+    Genome pruned = genome;
+    prune(pruned);
+    EXPECT_EQ(pruned.biases, (std::vector<float>{0.1f, 0.2f, 0.3f, 0.6f}));
+    EXPECT_EQ(pruned.edges, (std::vector<Edge>{{0, 15, 0.4f}, {15, 12, 0.5f}}));
+    EXPECT_EQ(why_invalid(pruned), "");
+    Network const before = compile(genome), after = compile(pruned);
+    EXPECT_EQ(before.first, after.first);
+    EXPECT_EQ(before.source, after.source);
+    EXPECT_EQ(before.weight, after.weight);
+    EXPECT_EQ(before.bias, after.bias);
+    Genome const once = pruned;
+    prune(pruned);
+    EXPECT_EQ(pruned, once);
+}
