@@ -81,7 +81,16 @@ void results(Seeds const& seeds, fs::path const& samples) {
     std::string_view const failure = R"({"attempts": 2, "how": "exit code 1", "log_tail": ["a line", "another"]})";
     seeds.write("results", "failure.json", which++, std::as_bytes(std::span{failure.data(), failure.size()}));
     seeds.write("results", "population.csv", which++, read_file(sample / "population.csv"));
-    seeds.write("results", "scene.json", which, read_file(sample / "scene.json"));
+    seeds.write("results", "scene.json", which++, read_file(sample / "scene.json"));
+    auto const write_text = [&](char const* name, std::string_view text) {
+        seeds.write("results", name, which++, std::as_bytes(std::span{text.data(), text.size()}));
+    };
+    write_text("speed.csv",
+               "treatment,runs,generations,reached_1,time_1,time_1_low,time_1_high,median_1,reached_3,time_3,"
+               "time_3_low,time_3_high,median_3,reached_5,time_5,time_5_low,time_5_high,median_5,area,area_low,"
+               "area_high\nnone,2,9,1,5.5,2,9,5.5,0,9,9,9,9,0,9,9,9,9,3.5,0,7\n");
+    write_text("leads.csv", "treatment,policy,none,generation,balls,policy_balls,none_balls,share\n"
+                            "kb1,policy,none,9,1.5,2,1,0.5\n");
 }
 
 void messages(Seeds const& seeds, Population const& population) {

@@ -2,6 +2,9 @@
 
 #include "system/evolve_command.h"
 
+#include <lore/archive/container.h>
+#include <lore/archive/knowledge_file.h>
+
 #include <gmock/gmock.h>
 
 using namespace lore;
@@ -115,6 +118,37 @@ TEST_F(Founders, of_a_resumed_run_are_those_it_was_started_with) {
         std::filesystem::remove(scratch.file(late));
     std::filesystem::copy_file(other, clones, std::filesystem::copy_options::overwrite_existing);
     expect_refusal(evolve(config, run, {"--resume", "--founders", clones}), 2, "not the file it was started with");
+}
+
+TEST_F(Founders, of_another_robot_are_refused_and_nothing_is_written) {
+    Bytes payload = read_container(clones, FileKind::founders);
+    std::string_view const ours = "range_right";
+    auto const channel = std::search(payload.begin(), payload.end(), ours.begin(), ours.end(),
+                                     [](std::byte stored, char wanted) { return stored == std::byte(wanted); });
+    ASSERT_NE(channel, payload.end());
+    *channel = std::byte{'R'};
+    std::string const foreign = scratch.file("foreign.lore"), never = scratch.file("never");
+    write_container(foreign, FileKind::founders, payload);
+    for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)})
+        expect_refusal(launcher + evolve(config, never, {"--founders", foreign}), 2, "does not fit the robot");
+    EXPECT_FALSE(exists(never));
+    expect_refusal({program("lore-kb"), "verify", foreign}, 2, "does not fit the robot");
+}
+
+TEST_F(Founders, of_a_base_with_windows_too_long_to_clone_from_are_refused_and_nothing_is_written) {
+    KnowledgeConfig config_of_base;
+    config_of_base.window_length = longest_window;
+    KnowledgeArrays arrays{std::vector<std::uint16_t>(longest_window),
+                           std::vector<float>(std::size_t{longest_window} * continuous_count),
+                           {2.0},
+                           {4.0},
+                           {2}};
+    std::string const longest = scratch.file("long.lorekb"), never = scratch.file("never");
+    write_knowledge_base(longest, KnowledgeBase{config_of_base, {}, std::move(arrays)});
+    std::string const says = "400 windows a founder were asked for";
+    expect_refusal(evolve(config, never, {"--founders", longest}), 2, says);
+    expect_refusal({program("lore-kb"), "clone", longest, "--out", never}, 2, says);
+    EXPECT_FALSE(exists(never));
 }
 
 TEST_F(Founders, that_do_not_fit_are_refused_and_nothing_is_written) {
