@@ -109,8 +109,8 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
 
 std::string populations_table(CampaignPlan const& plan, Results const& results) {
     using Row = PopulationRow;
-    auto const if_shaped = [](Row const& p, double value) {
-        return p.best_shaping != no_feature_value ? two_decimals(value) : std::string{};
+    auto const if_shaped = [&](Row const& p, double value) {
+        return !plan.treatment(p.treatment).knowledge.empty() ? two_decimals(value) : std::string{};
     };
     std::vector<HtmlColumn<Row>> const columns{
         {"treatment", [&](Row const& p) { return plan.treatment(p.treatment).label; }, true},
