@@ -53,15 +53,15 @@ std::span<double const> return_sums(KnowledgeBase const& base, ValueConfig const
 
 void check_contrast(Evidence const& evidence, ValueConfig const& config) {
     if (!evidence.has_contrast()) refuse_lineage(config);
+    if (config.success_balls > 0 && std::cmp_not_equal(config.success_balls, evidence.success_balls))
+        refuse_evidence(
+            config, fmt::format("its successes have {} balls, not {}", evidence.success_balls, config.success_balls),
+            "Leave that out, or build it anew with another --success.");
     if (evidence.successes == 0 || evidence.failures == 0)
         refuse_evidence(config,
                         fmt::format("in no {} generations some individuals delivered {} balls and some fewer",
                                     generations_per_era, evidence.success_balls),
                         "Build it anew with another --success.");
-    if (config.success_balls > 0 && std::cmp_not_equal(config.success_balls, evidence.success_balls))
-        refuse_evidence(
-            config, fmt::format("its successes have {} balls, not {}", evidence.success_balls, config.success_balls),
-            "Leave that out, or build it anew with another --success.");
 }
 
 }   // namespace

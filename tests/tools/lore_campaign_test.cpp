@@ -79,7 +79,7 @@ TEST_F(LoreCampaignTest, makes_bases_by_other_rules_of_value_and_founders_from_t
                         table("treatment", "permuted", target + "clone_of = \"permuted\"") +
                         table("treatment", "share", target + "knowledge = \"return\"\nset = [\"shaping.rule=share\"]"));
     expect_done("run c.toml --dir c --jobs 1 -q");
-    EXPECT_THAT(run("status -q c.toml --dir c").output, HasSubstr("10 done"));
+    EXPECT_THAT(run("status -q c.toml --dir c").output, HasSubstr("12 done"));
     KnowledgeBase const base = read_knowledge_base(scratch.file("c/knowledge/base.lorekb"));
     EXPECT_EQ(base.evidence().gammas, (std::vector<double>{0.7, 0.8, 0.9}));
     EXPECT_EQ(read_knowledge_base(scratch.file("c/knowledge/return.lorekb")).provenance().value, "return 0.7");
