@@ -2,6 +2,7 @@
 #include "support/small_run.h"
 
 #include <lore/archive/founders_file.h>
+#include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
 
@@ -25,6 +26,23 @@ class LoreKb : public test::ProgramTest {
 protected:
     LoreKb() : ProgramTest(LORE_KB) { test::write_small_run(scratch.file("run")); }
 
+    /// What `lore-kb individuals` prints: a header, then an object an individual.
+    std::vector<nlohmann::json> individuals_of(std::string const& file) {
+        Ran const ran = run("individuals " + file);
+        EXPECT_EQ(ran.exit_code, 0) << ran.errors;
+        std::istringstream stream{ran.output};
+        std::vector<nlohmann::json> lines;
+        for (std::string line; std::getline(stream, line);) lines.push_back(nlohmann::json::parse(line));
+        return lines;
+    }
+    static Genome genome_of(nlohmann::json const& individual) {
+        Genome genome;
+        for (auto const& [source, target, gene] :
+             individual.at("edges").get<std::vector<std::tuple<NeuronIndex, NeuronIndex, float>>>())
+            genome.edges.push_back({source, target, gene});
+        genome.biases = individual.at("biases").get<std::vector<float>>();
+        return genome;
+    }
     std::vector<std::string> lines_of(std::string const& file) {
         std::ifstream stream{scratch.file(file)};
         std::vector<std::string> lines;
@@ -163,6 +181,86 @@ TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
         EXPECT_THAT(lines[i], HasSubstr(std::to_string(i - 1) + ",0,"));   // itself, at distance 0
     expect_done("export kb.lorekb --csv kb.csv");
     EXPECT_EQ(lines_of("kb.csv").size(), lines.size());
+}
+
+TEST_F(LoreKb, prints_the_lineage_with_its_genomes_to_the_bit) {
+    LineageArchive const lineage = read_lineage(scratch.file("run/lineage.lore"));
+    auto const lines = individuals_of("run");
+    EXPECT_EQ(individuals_of("run/lineage.lore"), lines);
+    auto const& header = lines.at(0);
+    EXPECT_EQ(header.at("format"), 1);
+    EXPECT_EQ(header.at("kind"), "lineage archive");
+    EXPECT_EQ(header.at("individuals"), lineage.births.size());
+    EXPECT_EQ(header.at("generation"), 6);
+    EXPECT_EQ(header.at("best"), text(lineage.best));
+    EXPECT_EQ(header.at("last_population").size(), 8u);
+    EXPECT_EQ(header.at("last_population").at(7), text(lineage.last_population.at(7)));
+    EXPECT_EQ(header.at("inputs"), 12);
+    EXPECT_EQ(header.at("outputs"), 3);
+    EXPECT_FALSE(header.contains("founders"));
+    ASSERT_EQ(lines.size(), 1 + lineage.births.size());
+    for (std::size_t i = 0; i < lineage.births.size(); ++i) {
+        Birth const& birth = *lineage.births[i];
+        auto const& line = lines[i + 1];
+        EXPECT_EQ(line.at("id"), text(birth.id));
+        EXPECT_EQ(line.at("parent"), birth.parent ? nlohmann::json(text(birth.parent->id)) : nlohmann::json{});
+        EXPECT_EQ(line.at("balls"), birth.balls);
+        EXPECT_EQ(line.at("shaping"), birth.shaping);
+        EXPECT_EQ(line.at("diversity"), birth.diversity);
+        EXPECT_EQ(genome_of(line), birth.genome);
+    }
+}
+
+TEST_F(LoreKb, prints_where_founders_of_a_lineage_came_from) {
+    LineageArchive const lineage = read_lineage(scratch.file("run/lineage.lore"));
+    Population population;
+    for (IndividualId const id : lineage.last_population) population.members.emplace_back().birth = lineage.find(id);
+    write_lineage(scratch.file("other.lore"), population, FoundersOrigin{"clones", "a \"b\"\xff.lore", "0123"});
+    auto const founders = individuals_of("other.lore").at(0).at("founders");
+    EXPECT_EQ(founders.at("kind"), "clones");
+    EXPECT_EQ(founders.at("path"), "a \"b\"\xef\xbf\xbd.lore");   // what is no UTF-8 is replaced
+    EXPECT_EQ(founders.at("xxh3_64"), "0123");
+}
+
+TEST_F(LoreKb, prints_everybody_founders_and_a_failed_individual) {
+    auto const everybody = individuals_of("run/all.lore");
+    EXPECT_EQ(everybody.at(0).at("kind"), "archive of all individuals");
+    EXPECT_EQ(everybody.at(0).at("individuals"), 64);
+    ASSERT_EQ(everybody.size(), 65u);
+    EXPECT_EQ(everybody.at(1).at("id"), "0.0");
+    EXPECT_EQ(everybody.at(64).at("id"), "6.7");
+    EXPECT_FALSE(everybody.at(64).contains("shaping"));
+    LineageArchive const lineage = read_lineage(scratch.file("run/lineage.lore"));
+    auto const best = std::find_if(everybody.begin() + 1, everybody.end(),
+                                   [&](auto const& one) { return one.at("id") == text(lineage.best); });
+    ASSERT_NE(best, everybody.end());
+    EXPECT_EQ(genome_of(*best), lineage.find(lineage.best)->genome);
+
+    expect_done("build run --out kb.lorekb -q");
+    expect_done("clone kb.lorekb --count 2 --windows 20 --out founders.lore -q");
+    auto const founders = individuals_of("founders.lore");
+    EXPECT_EQ(founders.at(0).at("founders"), "clones of a knowledge base");
+    EXPECT_EQ(founders.at(0).at("origin").at("base"), "kb.lorekb");
+    EXPECT_EQ(genome_of(founders.at(2)), read_founders(scratch.file("founders.lore")).genomes.at(1));
+
+    write_genome(scratch.file("failed.lore"), {{3, 5}, lineage.births.front()->genome, 1, "it \"failed\""});
+    auto const failed = individuals_of("failed.lore");
+    EXPECT_EQ(failed.at(0).at("reason"), "it \"failed\"");
+    EXPECT_EQ(failed.at(1).at("id"), "3.5");
+    EXPECT_EQ(genome_of(failed.at(1)), lineage.births.front()->genome);
+}
+
+TEST_F(LoreKb, prints_no_individual_of_what_has_none_or_is_damaged) {
+    expect_refusal("individuals nowhere", 2, "nowhere");
+    expect_done("build run --out kb.lorekb -q");
+    expect_refusal("individuals kb.lorekb", 1, "it is a knowledge base");
+    for (char const* file : {"lineage.lore", "all.lore"}) {
+        std::string const path = scratch.file(std::string{"run/"} + file);
+        std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+        expect_refusal(std::string{"individuals run/"} + file, 1, file);
+    }
+    std::filesystem::remove(scratch.file("run/lineage.lore"));
+    expect_refusal("individuals run", 2, "run/lineage.lore");
 }
 
 TEST_F(LoreKb, derives_and_multiplies) {

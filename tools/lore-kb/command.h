@@ -41,6 +41,7 @@ void add_randomize(CLI::App&, Program&);
 void add_revalue(CLI::App&, Program&);
 void add_reduce(CLI::App&, Program&);
 void add_export(CLI::App&, Program&);
+void add_individuals(CLI::App&, Program&);
 void add_clone(CLI::App&, Program&);
 void add_verify(CLI::App&, Program&);
 

@@ -28,6 +28,7 @@ constexpr char const* examples =
     "  lore-kb revalue kb1.lorekb --value return --gamma 0.995 --out kb1return.lorekb\n"
     "  lore-kb reduce kb1.lorekb --top 1000 --out top.lorekb\n"
     "  lore-kb export kb1.lorekb --npy kb1\n"
+    "  lore-kb individuals runs/s1 > lineage.jsonl                   ancestors with their genomes, for other programs\n"
     "  lore-kb clone kb1.lorekb --out founders.lore                  for lore-evolve --founders founders.lore\n"
     "  lore-kb verify runs/s1/lineage.lore\n"
     "'lore-kb COMMAND --help' has the options of a command.\n"
@@ -44,8 +45,9 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.fallthrough();
     app.add_flag("-q,--quiet", program.quiet, "say nothing but errors");
-    for (auto const add : {kb::add_build, kb::add_info, kb::add_query, kb::add_product, kb::add_randomize,
-                           kb::add_revalue, kb::add_reduce, kb::add_export, kb::add_clone, kb::add_verify})
+    for (auto const add :
+         {kb::add_build, kb::add_info, kb::add_query, kb::add_product, kb::add_randomize, kb::add_revalue,
+          kb::add_reduce, kb::add_export, kb::add_individuals, kb::add_clone, kb::add_verify})
         add(app, program);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
