@@ -1,0 +1,202 @@
+"""Campaigns and their reports as lore-campaign makes them, and figures drawn from their tables."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+
+import numpy as np
+
+import lore
+from support import PAPER, SMALL, TASKS, LoreTest, program
+
+try:
+    import matplotlib  # noqa: F401
+
+    from lore import plot
+except ImportError:
+    plot = None  # type: ignore[assignment]
+
+
+def campaign_text() -> str:
+    treatment = f"set = {SMALL[:2] + SMALL[3:]}\n".replace("'", '"')
+    return f"""
+title = "A campaign of a few seconds"
+runs = 2
+generations = 12
+[source]
+config = "{TASKS}/source.toml"
+{treatment}
+[[knowledge]]
+name = "kb1"
+balls = 1
+[[knowledge]]
+name = "kb2"
+balls = 0
+[[treatment]]
+name = "none"
+label = "no transfer"
+config = "{TASKS}/target.toml"
+{treatment}
+[[treatment]]
+name = "kb1"
+config = "{TASKS}/target.toml"
+knowledge = "kb1"
+{treatment}
+[report]
+trajectory = "kb1"
+figure5 = ["kb1"]
+figure6 = ["kb1", "kb2"]
+"""
+
+
+class ReadCampaign(LoreTest):
+    directory: pathlib.Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.directory = cls.scratch / "campaign"
+        file = cls.scratch / "campaign.toml"
+        file.write_text(campaign_text())
+        program("lore-campaign", "run", file, "--dir", cls.directory, "-q")
+        program("lore-campaign", "report", file, "--dir", cls.directory, "-q")
+
+    def test_finds_treatments_runs_and_knowledge(self) -> None:
+        campaign = lore.Campaign(self.directory)
+        self.assertEqual(campaign.treatments, ["source", "kb1", "none"])
+        self.assertEqual(list(campaign.runs("none")), [1, 2])
+        self.assertEqual(campaign.knowledge, ["kb1", "kb2"])
+        self.assertEqual(len(campaign.knowledge_base("kb1")), campaign.report.knowledge["features"][0])
+        with self.assertRaises(FileNotFoundError):
+            campaign.runs("kb9")
+        with self.assertRaises(FileNotFoundError):
+            lore.Campaign(self.scratch)
+
+    def test_status_is_what_the_report_tells_of_runs(self) -> None:
+        status, runs = lore.Campaign(self.directory).status(), lore.Campaign(self.directory).report.runs
+        self.assertEqual(set(status["status"]), {"done"})
+        for treatment, run, signature, balls in zip(
+            *(runs[name] for name in ("treatment", "run", "signature", "balls"))
+        ):
+            row = status.where(treatment=treatment, run=run)
+            self.assertEqual((row["signature"][0], row["best_balls"][0], row["generation"][0]), (signature, balls, 12))
+        self.assertEqual(len(status), len(runs))
+
+    def test_progress_is_tidy_and_has_the_means_of_the_curves(self) -> None:
+        campaign = lore.Campaign(self.directory)
+        progress, curves = campaign.progress(), campaign.report.curves
+        self.assertEqual(progress.columns[:4], ["treatment", "run", "seed", "generation"])
+        self.assertEqual(len(progress), 3 * 2 * 13)
+        for treatment, generation, mean in zip(*(curves[name] for name in ("treatment", "generation", "mean"))):
+            rows = progress.where(treatment=treatment, generation=generation)
+            self.assertAlmostEqual(rows["best_balls"].mean(), mean, 4)
+        self.assertEqual(len({(t, s) for t, s in zip(progress["treatment"], progress["seed"])}), 6)
+
+    def test_a_campaign_under_way_shows_what_is_there(self) -> None:
+        copy = self.scratch / "under-way"
+        shutil.copytree(self.directory / "runs", copy / "runs")
+        manifest = copy / "runs" / "none" / "002" / "manifest.json"
+        manifest.write_text(manifest.read_text().replace('"status": "done"', '"status": "running"'))
+        (copy / "runs" / "kb1" / "002" / "manifest.json").unlink()
+        campaign = lore.Campaign(copy)
+        self.assertEqual(len(campaign.progress()), 4 * 13)
+        self.assertEqual(len(campaign.progress(unfinished=True)), 5 * 13)
+        self.assertEqual(campaign.knowledge, [])
+        with self.assertRaises(FileNotFoundError):
+            campaign.report
+
+    def test_a_damaged_run_is_named(self) -> None:
+        copy = self.scratch / "damaged"
+        shutil.copytree(self.directory / "runs", copy / "runs")
+        progress = copy / "runs" / "none" / "001" / "progress.csv"
+        progress.write_text(progress.read_text().replace(",0,", ",1,", 1))
+        self.expect_damaged(lambda: lore.Campaign(copy).progress(), progress, "checksum mismatch")
+
+    @unittest.skipIf(plot is None, "matplotlib is not here")
+    def test_its_figures_can_be_drawn(self) -> None:
+        written = plot.save_figures(self.directory, self.scratch / "figures", ["svg"])
+        self.assertEqual([os.path.basename(path) for path in written], [f"figure{i}.svg" for i in range(3, 7)])
+
+
+@unittest.skipIf(plot is None, "matplotlib is not here")
+class Figures(LoreTest):
+    def test_name_axes_units_and_treatments(self) -> None:
+        plot.save_figures(PAPER, self.scratch, ["svg"])
+        expected = {
+            "figure3": ["generation", "collected balls (mean of best-of-runs)", "no transfer (n = 30)", "KB3 (n = 30)"],
+            "figure4": ["collected balls (best-of-run)", "KB1 random", "n = 30", "**"],
+            "figure5": [
+                "x (u)",
+                "y (u)",
+                "time (steps)",
+                "value (balls)",
+                "(a) values from KB3",
+                "(b) values from KB2",
+            ],
+            "figure6": ["product of the values from KB1 \u00d7 KB2 \u00d7 KB3", "time (steps)"],
+        }
+        for figure, texts in expected.items():
+            document = xml.etree.ElementTree.parse(self.scratch / f"{figure}.svg")
+            shown = {
+                "".join(element.itertext()).strip() for element in document.iter("{http://www.w3.org/2000/svg}text")
+            }
+            for text in texts:
+                self.assertIn(text, shown, figure)
+
+    def test_equal_tables_make_equal_files(self) -> None:
+        for place in ("once", "again"):
+            plot.save_figures(PAPER, self.scratch / place, ["svg"])
+        for figure in ("figure3.svg", "figure4.svg", "figure5.svg", "figure6.svg"):
+            self.assertEqual(
+                (self.scratch / "once" / figure).read_bytes(), (self.scratch / "again" / figure).read_bytes()
+            )
+
+    def test_show_what_the_tables_hold(self) -> None:
+        report = lore.Report(PAPER)
+        lines = {line.get_label(): line for line in plot.figure3(report).axes[0].lines}
+        curve = report.curves.where(treatment="kb3")
+        np.testing.assert_array_equal(lines["KB3 (n = 30)"].get_ydata(), curve["mean"])
+        np.testing.assert_array_equal(lines["KB3 (n = 30)"].get_xdata(), curve["generation"])
+        marks = sorted(text.get_text() for text in plot.figure4(report).axes[0].texts)
+        p = report.comparisons["p"]
+        self.assertEqual(marks, ["*"] * int(((p < 1e-2) & (p >= 1e-3)).sum()) + ["**"] * int((p < 1e-3).sum()))
+
+    def test_are_drawn_by_a_command(self) -> None:
+        command = [sys.executable, "-B", "-m", "lore.plot"]
+        done = subprocess.run([*command, PAPER, "--out", self.scratch / "out", "--formats", "png"], capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.scratch / "out" / "figure6.png").read_bytes()[:4], b"\x89PNG")
+        failed = subprocess.run(
+            [*command, self.scratch / "nowhere", "--out", self.scratch], capture_output=True, text=True
+        )
+        self.assertEqual(failed.returncode, 2)
+        self.assertEqual(failed.stderr.count("\n"), 1)
+        self.assertIn("nowhere", failed.stderr)
+
+    def test_damaged_tables_are_named(self) -> None:
+        copy = self.scratch / "report"
+        shutil.copytree(PAPER, copy)
+        for name, draw in [
+            ("curves.csv", plot.figure3),
+            ("final.csv", plot.figure4),
+            ("pvalues.csv", plot.figure4),
+            ("replay.csv", plot.figure5),
+            ("values.csv", plot.figure6),
+            ("scene.json", plot.figure5),
+            ("summary.json", plot.figure3),
+        ]:
+            whole = (copy / name).read_bytes()
+            (copy / name).write_bytes(whole[: len(whole) // 2])
+            self.expect_damaged(lambda: draw(lore.Report(copy)), copy / name)
+            (copy / name).write_bytes(whole.replace(b"0", b"?"))
+            self.expect_damaged(lambda: draw(lore.Report(copy)), copy / name)
+            (copy / name).write_bytes(whole)
+        (copy / "scene.json").write_text('{"replays": [{"run": "source/001", "scene": {"walls": 1}}], "panels": []}')
+        self.expect_damaged(lambda: plot.figure5(copy), copy / "scene.json", "it does not describe replays")
+
+
+if __name__ == "__main__":
+    unittest.main()

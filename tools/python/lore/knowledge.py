@@ -1,0 +1,206 @@
+"""Knowledge bases (*.lorekb), mapped as they lie in the file: nothing is copied, and processes share the memory."""
+from __future__ import annotations
+
+import json
+import math
+import os
+import struct
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .channels import BINARY, CHANNELS, CONTINUOUS
+from .container import map_payload
+from .errors import Damaged, FilePath
+
+_PREAMBLE = struct.Struct("<2If3I3Q16x")
+_CONTRAST = struct.Struct("<2QI4x")
+_ALIGNMENT = 64
+_LAYOUT = 2
+_LONGEST_WINDOW = 4000
+_MOST_FEATURES = 1 << 30
+_MOST_GAMMAS = 16
+_RETURNS, _CREDIT, _CONTRAST_PART = 1, 2, 4
+_BINARY_MASK = (1 << len(BINARY)) - 1
+
+
+@dataclass(frozen=True)
+class Returns:
+    """Discounted returns of the windows that matched a feature."""
+
+    gammas: NDArray[np.float64]  #: (G,), discounts a step, increasing, each in (0, 1)
+    showings: NDArray[np.uint64]  #: (n,), windows that matched it
+    sums: NDArray[np.float64]  #: (G, n) [balls], sum of the discounted returns over the showings
+
+    def why_invalid(self) -> str:
+        """A number outside its range, told as a reason; "" if there is none."""
+        gammas = self.gammas
+        if not (gammas.min() > 0 and gammas.max() < 1 and np.all(np.diff(gammas) > 0)):
+            return "its gammas are no increasing discounts"
+        if self.showings.min() == 0:
+            return "a feature that nobody showed"
+        return "" if _all_finite(self.sums) else "a feature's evidence is not finite"
+
+
+@dataclass(frozen=True)
+class Credit:
+    """Pairs of parent and child in which the child alone showed a feature."""
+
+    news: NDArray[np.uint32]  #: (n,), such pairs
+    gain_sums: NDArray[np.float64]  #: (n,) [balls], sum of the child's balls less the parent's
+
+    def why_invalid(self) -> str:
+        """As Returns.why_invalid."""
+        return "" if _all_finite(self.gain_sums) else "a feature's evidence is not finite"
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """Individuals with enough balls against contemporaries with fewer."""
+
+    success_balls: int  #: so many balls make a success
+    successes: int
+    failures: int
+    successes_that_showed: NDArray[np.uint32]  #: (n,)
+    failures_that_showed: NDArray[np.uint32]  #: (n,)
+
+    def why_invalid(self) -> str:
+        """As Returns.why_invalid."""
+        if self.success_balls == 0:
+            return "its successes need no balls"
+        too_many = self.successes_that_showed.max() > self.successes or self.failures_that_showed.max() > self.failures
+        return "a feature that more have shown than there were" if too_many else ""
+
+
+class KnowledgeBase:
+    """n behavioral features, each a window of T steps and 15 channels, and what those who showed them earned.
+
+    All arrays are read-only views of the mapped file, numbered by feature in the order in which they were first met.
+    The file may be replaced meanwhile, as Lore does it, but whoever shortens it ends the process (SIGBUS).
+    """
+
+    path: str
+    window_length: int  #: T [steps]
+    match_threshold: float  #: a window nearer than this to a feature matches it [L2]
+    values: NDArray[np.float64]  #: (n,) [balls] by the rule `mean`
+    reward_sums: NDArray[np.float64]  #: (n,) [balls], of the individuals that showed it
+    counts: NDArray[np.uint32]  #: (n,), individuals that showed it, at least 1
+    continuous: NDArray[np.float32]  #: (n, T, 6), the channels of lore.CONTINUOUS, in [0, 1]
+    binary: NDArray[np.uint16]  #: (n, T), bit i is channel lore.BINARY[i]
+    returns: Returns | None  #: None where the build did not gather it; likewise the next two
+    credit: Credit | None
+    contrast: Contrast | None
+    provenance: dict[str, Any]  #: as `lore-kb info --json` shows it
+
+    def __init__(self, path: FilePath, check: bool = True) -> None:
+        """Maps the file and checks it whole: header, lengths, checksum, and that every number is in its range.
+
+        `check=False` leaves out what reads the whole file (some 8 s a gigabyte): a changed byte then goes unnoticed.
+        Raises Damaged, FileNotFoundError.
+        """
+        self.path = os.fspath(path)
+        payload = map_payload(path, "knowledge base", check)
+        try:
+            self._lay_out(payload)
+        except (struct.error, ValueError, RecursionError) as error:  # what is no UTF-8 or no JSON is a ValueError
+            raise Damaged(path, str(error)) from error
+        if check and (why := self._why_invalid()):
+            raise Damaged(path, why)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __repr__(self) -> str:
+        return f"<KnowledgeBase {self.path}: {len(self)} features of {self.window_length} steps>"
+
+    def windows(self, features: Any = slice(None)) -> NDArray[np.float32]:
+        """The windows of some features (a number, slice or array of them), put together: a copy.
+
+        Shape (m, T, 15), or (T, 15) for one number; channels as lore.CHANNELS, as `lore-kb export --npy` writes them.
+        """
+        continuous, binary = self.continuous[features], self.binary[features]
+        windows = np.empty((*binary.shape, len(CHANNELS)), np.float32)
+        windows[..., CONTINUOUS] = continuous
+        for bit, channel in enumerate(BINARY):
+            windows[..., channel] = binary >> bit & 1
+        return windows
+
+    def _lay_out(self, payload: NDArray[np.uint8]) -> None:
+        """Finds the arrays in the payload (docs/manual/formats.md). Raises ValueError with the reason."""
+        preamble = _PREAMBLE.unpack(payload[: _PREAMBLE.size].tobytes())
+        layout, steps, threshold, binary, continuous, gammas, features, provenance_bytes, evidence = preamble
+        if layout > _LAYOUT:
+            raise ValueError(f"written by a newer Lore: layout {layout}, this one reads {_LAYOUT}")
+        if layout == 0:
+            raise ValueError("its layout is unknown")
+        if layout == 1:
+            gammas = evidence = 0
+        if evidence >= 8 or gammas > _MOST_GAMMAS or (gammas > 0) != (evidence & _RETURNS != 0):
+            raise ValueError("its evidence is of no known kind")
+        if (binary, continuous) != (len(BINARY), len(CONTINUOUS)):
+            raise ValueError(f"it has {binary} binary and {continuous} continuous channels, not 9 and 6")
+        if not 1 <= steps <= _LONGEST_WINDOW:
+            raise ValueError(f"a window length of {steps} steps")
+        if not (threshold > 0 and math.isfinite(threshold)):
+            raise ValueError(f"a match threshold of {threshold}")
+        if features > _MOST_FEATURES:
+            raise ValueError(f"{features} features do not fit its length")
+        self.window_length, self.match_threshold = steps, threshold
+
+        at = _PREAMBLE.size
+
+        def take(kind: Any, *shape: int) -> NDArray[Any]:
+            nonlocal at
+            first, size = at, math.prod(shape) * np.dtype(kind).itemsize
+            at = first + (size + _ALIGNMENT - 1) // _ALIGNMENT * _ALIGNMENT
+            if at > len(payload):
+                raise ValueError(f"{features} features do not fit its length")
+            array: NDArray[Any] = payload[first : first + size].view(kind).reshape(shape)
+            return array
+
+        self.values, self.reward_sums = take("<f8", features), take("<f8", features)
+        self.counts = take("<u4", features)
+        self.continuous, self.binary = take("<f4", features, steps, continuous), take("<u2", features, steps)
+        self.returns = self.credit = self.contrast = None
+        if evidence & _RETURNS:
+            self.returns = Returns(take("<f8", gammas), take("<u8", features), take("<f8", gammas, features))
+        if evidence & _CREDIT:
+            self.credit = Credit(take("<u4", features), take("<f8", features))
+        if evidence & _CONTRAST_PART:
+            successes, failures, balls = _CONTRAST.unpack(take(np.uint8, _CONTRAST.size).tobytes())
+            self.contrast = Contrast(balls, successes, failures, take("<u4", features), take("<u4", features))
+        if at + provenance_bytes != len(payload):
+            raise ValueError(f"{features} features do not fit its length")
+        self.provenance = _provenance(payload[at:].tobytes())
+
+    def _why_invalid(self) -> str:
+        """The first number outside its range, told as a reason; "" if there is none. Takes no memory."""
+        if len(self) == 0:
+            return ""
+        # Comparisons with NaN are false.
+        if not (self.continuous.min() >= 0 and self.continuous.max() <= 1):
+            return "a window's value is not in 0 .. 1"
+        if self.binary.max() > _BINARY_MASK:
+            return "a window has unknown channels"
+        if not (_all_finite(self.values) and _all_finite(self.reward_sums)):
+            return "a feature's value is not finite"
+        if self.counts.min() == 0:
+            return "a feature that nobody exhibited"
+        parts = (self.returns, self.credit, self.contrast)
+        return next((why for part in parts if part is not None and (why := part.why_invalid())), "")
+
+
+def _all_finite(numbers: NDArray[np.float64]) -> bool:
+    return math.isfinite(numbers.min()) and math.isfinite(numbers.max())  # NaN passes through both
+
+
+def _provenance(text: bytes) -> dict[str, Any]:
+    provenance = json.loads(text)
+    if not isinstance(provenance, dict):
+        raise ValueError("its provenance is no JSON object")
+    for key in ("made_by", "kind", "index", "sources", "derivation", "task", "individuals", "windows", "best_balls"):
+        if key not in provenance:
+            raise ValueError(f"its provenance has no '{key}'")
+    return provenance

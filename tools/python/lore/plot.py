@@ -1,0 +1,307 @@
+"""Figures 3 to 6 of the paper from the tables of a report, with matplotlib.
+
+    python3 -m lore.plot runs/small --out figures --formats svg png
+
+The functions return matplotlib Figures that belong to no window; save one with figure.savefig("figure3.svg"). Colors
+are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from white to dark for values.
+"""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import Any, Callable, Sequence
+
+import matplotlib
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Rectangle
+from numpy.typing import NDArray
+
+from .errors import Damaged, FilePath
+from .report import SOURCE, Report, Scene
+from .table import Table
+
+COLORS = ("#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7")
+VALUE_COLORS = LinearSegmentedColormap.from_list(
+    "lore", ["#ffffff", "#deebf7", "#abd0e6", "#6baed6", "#3787c0", "#105ba4", "#08306b"]
+)
+_SOURCE_COLOR, _GRAY, _WALL = "#777777", "#8c8c8c", "#3a3a3a"
+_STEPS_BETWEEN_ROBOTS = 50
+
+
+def figure3(report: Report | FilePath) -> Figure:
+    """Mean best-of-run balls by generation, a line a treatment with its 95 % bootstrap band."""
+    report = _report(report)
+    curves, treatments, names = report.curves, _targets(report), report.labels
+    target_rows = curves["generation"][curves["treatment"] != SOURCE]
+    last = target_rows.max() if len(target_rows) else np.inf  # source runs may be longer
+    figure = Figure(figsize=(8.5, 4.8), layout="constrained")
+    axes = figure.add_subplot(xlabel="generation", ylabel="collected balls (mean of best-of-runs)")
+    for treatment, style in [(SOURCE, {"color": _SOURCE_COLOR, "dashes": (5, 3)}), *_styles(treatments)]:
+        rows = curves.where(treatment=treatment)
+        if len(rows) == 0:
+            continue
+        shown = rows["generation"] <= last
+        at = rows["generation"][shown]
+        label = f"{names.get(treatment, treatment)} (n = {rows['runs'][shown][-1]})"
+        axes.fill_between(at, rows["low"][shown], rows["high"][shown], color=style["color"], alpha=0.12, linewidth=0)
+        axes.plot(at, rows["mean"][shown], label=label, **style)
+    axes.margins(x=0.01)
+    axes.set_ylim(bottom=0)
+    axes.grid(axis="y", color="#dddddd", linewidth=0.7)
+    axes.spines[["top", "right"]].set_visible(False)
+    if axes.lines:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
+    return figure
+
+
+def figure4(report: Report | FilePath) -> Figure:
+    """A boxplot a target treatment at the last generation, every run a point; brackets over pairs with p < 0.01 (*)
+    and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper."""
+    report = _report(report)
+    final = report.final
+    treatments = [name for name in _targets(report) if len(final.where(treatment=name))]
+    balls = [final.where(treatment=name)["balls"] for name in treatments]
+    figure = Figure(figsize=(max(4.0, 1.1 + 1.05 * len(treatments)), 5.2), layout="constrained")
+    axes = figure.add_subplot(ylabel="collected balls (best-of-run)")
+    for place, (of_one, (_, style)) in enumerate(zip(balls, _styles(treatments)), 1):
+        axes.boxplot(of_one, positions=[place], widths=0.55, showfliers=False, patch_artist=True,
+                     boxprops={"facecolor": (*to_rgb(style["color"]), 0.18)},
+                     medianprops={"color": "#222222", "linewidth": 2})  # fmt: skip
+        axes.plot(place + _side_by_side(of_one), of_one, "o", color=style["color"], markersize=4, alpha=0.75)
+    names = report.labels
+    labels = [f"{names.get(name, name)}\nn = {len(of_one)}" for name, of_one in zip(treatments, balls)]
+    axes.set_xticks(range(1, len(treatments) + 1), labels, fontsize=8)
+    axes.yaxis.get_major_locator().set_params(integer=True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(axis="y", color="#dddddd", linewidth=0.7)
+    most = max((of_one.max() for of_one in balls), default=1)
+    for low, high, mark, level in _brackets(report, treatments):
+        y = most + 0.5 + 0.45 * level
+        axes.plot([low + 0.05, low + 0.05, high - 0.05, high - 0.05], [y - 0.1, y, y, y - 0.1], color="#222222", lw=0.8)
+        axes.text((low + high) / 2, y, mark, ha="center", va="center_baseline",
+                  bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})  # fmt: skip
+    return figure
+
+
+def figure5(report: Report | FilePath) -> Figure:
+    """The trajectory of a source run's best robot, colored by the values of knowledge bases, a panel each, with the
+    values over time. Raises FileNotFoundError where the report has no replay."""
+    return _panels(_report(report), "figure5")
+
+
+def figure6(report: Report | FilePath) -> Figure:
+    """The same, colored by the product of the values of several knowledge bases."""
+    return _panels(_report(report), "figure6")
+
+
+FIGURES: dict[str, Callable[[Report], Figure]] = {
+    "figure3": figure3,
+    "figure4": figure4,
+    "figure5": figure5,
+    "figure6": figure6,
+}
+
+
+def save_figures(report: Report | FilePath, directory: FilePath, formats: Sequence[str] = ("svg", "png")) -> list[str]:
+    """Writes the figures that the report has tables for; returns the files' names. Equal tables make equal files.
+
+    Raises Damaged, FileNotFoundError where no report is, OSError.
+    """
+    report = _report(report)
+    os.makedirs(directory, exist_ok=True)
+    written = []
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "lore"}):
+        for name, draw in FIGURES.items():
+            if name in ("figure5", "figure6") and not _has_panels(report, name):
+                continue
+            figure = draw(report)
+            for kind in formats:
+                path = os.path.join(os.fspath(directory), f"{name}.{kind}")
+                figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+                written.append(path)
+    return written
+
+
+def _report(report: Report | FilePath) -> Report:
+    return report if isinstance(report, Report) else Report(report)
+
+
+def _targets(report: Report) -> list[str]:
+    """Target treatments in the order of figures."""
+    there = dict.fromkeys(report.final["treatment"].tolist())
+    ordered = [name for name in report.labels if name in there]
+    return [name for name in dict.fromkeys([*ordered, *there]) if name != SOURCE]
+
+
+def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
+    """Color by place, as in the report; dashed from the eighth on."""
+    dashed: dict[str, Any] = {"dashes": (5, 3)}
+    return [
+        (name, {"color": COLORS[i % len(COLORS)], **(dashed if i >= len(COLORS) else {})})
+        for i, name in enumerate(treatments)
+    ]
+
+
+def _side_by_side(balls: NDArray[np.int64]) -> NDArray[np.float64]:
+    """How far to move each point sideways, so that those of equal balls stand side by side."""
+    offsets = np.zeros(len(balls))
+    for value in np.unique(balls):
+        equal = np.flatnonzero(balls == value)
+        offsets[equal] = (np.arange(len(equal)) - (len(equal) - 1) / 2) * min(0.06, 0.8 / len(equal))
+    return offsets
+
+
+def _brackets(report: Report, treatments: Sequence[str]) -> list[tuple[int, int, str, int]]:
+    """From, to (places from 1), mark, and the lowest level that is free over all it spans."""
+    if not os.path.exists(os.path.join(report.path, "pvalues.csv")):
+        return []
+    pairs = report.comparisons
+    places = {name: place for place, name in enumerate(treatments, 1)}
+    found = []
+    for a, b, p in zip(pairs["a"].tolist(), pairs["b"].tolist(), pairs["p"].tolist()):
+        if p < 1e-2 and a in places and b in places:
+            low, high = sorted((places[a], places[b]))
+            found.append((low, high, "**" if p < 1e-3 else "*"))
+    placed: list[tuple[int, int, str, int]] = []
+    for low, high, mark in sorted(found, key=lambda bracket: bracket[1] - bracket[0]):
+        taken = {level for other_low, other_high, _, level in placed if other_low < high and low < other_high}
+        placed.append((low, high, mark, next(level for level in range(len(taken) + 1) if level not in taken)))
+    return placed
+
+
+def _has_panels(report: Report, figure: str) -> bool:
+    files = [os.path.join(report.path, name) for name in ("replay.csv", "values.csv", "scene.json")]
+    return all(map(os.path.exists, files)) and len(report.values.where(figure=figure)) > 0
+
+
+def _panels(report: Report, figure_name: str) -> Figure:
+    scenes, values, names = report.scenes, report.values.where(figure=figure_name), report.labels
+    name = next(iter(scenes), "")  # the source run that the figures show comes first
+    steps = report.replay.where(replay=name)
+    if len(steps) == 0:
+        raise Damaged(os.path.join(report.path, "replay.csv"), f"it has no step of '{name}'")
+    bases = list(dict.fromkeys(values["knowledge"].tolist()))
+    figure = Figure(figsize=(8.5, 7.4 * max(1, len(bases))), layout="constrained")
+    parts = figure.subfigures(len(bases), 1, squeeze=False)[:, 0] if bases else []
+    for place, (part, base) in enumerate(zip(parts, bases)):
+        label = " \u00d7 ".join(names.get(one, one) for one in base.split("*"))
+        title = (
+            f"({chr(ord('a') + place)}) values from {label}"
+            if "*" not in base
+            else f"product of the values from {label}"
+        )
+        _draw_panel(part, scenes[name], steps, values.where(knowledge=base)["value"], base.count("*") + 1, title)
+    return figure
+
+
+def _draw_panel(part: Any, scene: Scene, steps: Table, values: NDArray[np.float64], factors: int, title: str) -> None:
+    """The plan with the trajectory above, the values over time below."""
+    product = factors > 1
+    found = values > 0 if product else values >= 0  # as the report has it: -1, or 0 in a product, is not found
+    norm = Normalize(0, values.max() if values.max() > 0 else 1)
+    what = f"product of the values (balls$^{factors}$)" if product else "value (balls)"
+    plan, strip = part.subplots(2, 1, gridspec_kw={"height_ratios": [3.3, 1]})
+    plan.set_title(title, loc="left", fontsize=11)
+    _draw_scene(plan, scene)
+    _draw_robots(plan, scene, steps)
+    _draw_legend(plan, scene)
+    length = -(-len(steps) // len(values))  # [steps] a window, the last may be incomplete
+    places = np.stack([steps["x"], steps["y"]], axis=1)
+    pieces = [places[at : at + length + 1] for at in range(0, len(places) - 1, length)]
+    known = np.array([i < len(found) and bool(found[i]) for i in range(len(pieces))])
+    _draw_lines(plan, [p for p, k in zip(pieces, known) if not k], color=_GRAY, linewidths=0.8)
+    colored = [p for p, k in zip(pieces, known) if k]
+    _draw_lines(plan, colored, color="#4d4d4d", linewidths=2.6)
+    lines = _draw_lines(plan, colored, array=values[: len(pieces)][known[: len(values)]], cmap=VALUE_COLORS, norm=norm,
+                        linewidths=1.7)  # fmt: skip
+    part.colorbar(lines, ax=plan, label=what, shrink=0.8)
+    _draw_strip(strip, values, found, length, 0.0 if product else -1.0, what)
+
+
+def _draw_lines(axes: Any, lines: list[NDArray[np.float64]], **style: Any) -> LineCollection:
+    collection = LineCollection(lines, zorder=3, capstyle="round", **style)
+    axes.add_collection(collection)
+    return collection
+
+
+def _draw_scene(axes: Any, scene: Scene) -> None:
+    """Lengths in u, y downwards."""
+    axes.set(xlim=(0, scene.size[0]), ylim=(scene.size[1], 0), aspect="equal", xlabel="x (u)", ylabel="y (u)")
+    for x0, x1, y0, y1 in scene.walls:
+        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, color=_WALL, zorder=2))
+    for x0, x1, y0, y1 in scene.doors:
+        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, facecolor="#f2f2f2", edgecolor=_WALL, ls="--", zorder=2))
+    x, y, radius = scene.basket
+    axes.add_patch(Circle((x, y), radius, facecolor="#d9f0e5", edgecolor="#2f9e6e", linestyle="--", zorder=1))
+    axes.plot(*scene.balls.T, "o", color="#e8a800", mec="#222222", ms=7, zorder=4)
+    axes.plot(*scene.basket_lights.T, "o", color="#2f9e6e", mec="#222222", ms=4.5, zorder=4)
+    axes.plot(*scene.switch, "s", color="#8e4fb0", mec="#222222", ms=7, zorder=4)
+
+
+def _draw_robots(axes: Any, scene: Scene, steps: Table) -> None:
+    """Every 50 steps, white or, with a ball, red; not where it stands still, since discs are half transparent."""
+    radius, before = scene.robot_radius, None
+    for step in range(0, len(steps), _STEPS_BETWEEN_ROBOTS):
+        x, y, theta, carrying = (steps[name][step] for name in ("x", "y", "theta", "carrying"))
+        if before and before[2] == carrying and np.hypot(x - before[0], y - before[1]) < 0.1 * radius:
+            continue
+        before = (x, y, carrying)
+        color, alpha = ("#e0452f", 0.45) if carrying else ("#ffffff", 0.6)
+        axes.add_patch(Circle((x, y), radius, facecolor=color, alpha=alpha, zorder=1.5))
+        axes.add_patch(Circle((x, y), radius, fill=False, edgecolor="#555555", lw=0.6, zorder=1.5))
+        axes.plot([x, x + radius * np.cos(theta)], [y, y + radius * np.sin(theta)], color="#555555", lw=0.9, zorder=1.5)
+
+
+def _draw_legend(axes: Any, scene: Scene) -> None:
+    def mark(shape: str, color: str, label: str, size: float = 7) -> Line2D:
+        return Line2D([], [], ls="", marker=shape, color=color, mec="#222222", mew=0.8, ms=size, label=label)
+
+    when = "at the start" if scene.balls_at_start else "after a press of the switch"
+    handles = [
+        mark("o", "#ffffff", f"robot, every {_STEPS_BETWEEN_ROBOTS} steps", 9),
+        mark("o", "#f0a297", "robot with a ball", 9),
+        mark("o", "#e8a800", f"ball, {when}"),
+        mark("s", "#8e4fb0", "switch"),
+        mark("o", "#2f9e6e", "light of the basket", 5),
+        Line2D([], [], color=_GRAY, lw=1.5, label="not in the knowledge base"),
+    ]
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=3, frameon=False, fontsize=8)
+
+
+def _draw_strip(axes: Any, values: NDArray[np.float64], found: NDArray[np.bool_], length: int, not_found: float,
+                what: str) -> None:  # fmt: skip
+    shown = np.where(found, values, not_found)
+    edges = np.arange(len(values) + 1) * length
+    axes.stairs(shown, edges, baseline=None, color=VALUE_COLORS(0.85), lw=1)
+    missing = [np.array([[edges[i], not_found], [edges[i + 1], not_found]]) for i in np.flatnonzero(~found)]
+    _draw_lines(axes, missing, color=_GRAY, linewidths=4)
+    least, most = min(not_found, 0), max(shown.max(), 1)
+    room = 0.06 * (most - least)
+    axes.set(xlim=(0, edges[-1]), ylim=(least - room, most + room), xlabel="time (steps)", ylabel=what)
+    axes.grid(axis="y", color="#dddddd", linewidth=0.7)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="python3 -m lore.plot", description="Draws figures 3 to 6 from a report's tables."
+    )
+    parser.add_argument("report", help="directory with the tables of 'lore-campaign report'")
+    parser.add_argument("--out", required=True, help="directory for the pictures")
+    parser.add_argument("--formats", nargs="+", default=["svg", "png"], choices=["svg", "png", "pdf"])
+    options = parser.parse_args(arguments)
+    try:
+        for path in save_figures(options.report, options.out, options.formats):
+            print(f"wrote {path}")
+    except (Damaged, OSError) as error:
+        print(f"lore.plot: {error}", file=sys.stderr)
+        return 2 if isinstance(error, FileNotFoundError) else 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

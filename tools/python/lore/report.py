@@ -1,0 +1,154 @@
+"""The tables of a campaign's report (docs/manual/formats.md)."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import Damaged, FilePath
+from .run import read_json
+from .table import Table, read_table
+
+SOURCE = "source"  #: the treatment of the source task
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """An arena and its task as pictures show them. Lengths in u, y downwards; rectangles are x0, x1, y0, y1."""
+
+    size: NDArray[np.float64]  #: (2,), width and height
+    walls: NDArray[np.float64]  #: (k, 4), without the door
+    doors: NDArray[np.float64]  #: (k, 4), parts of one door
+    balls: NDArray[np.float64]  #: (k, 2)
+    balls_at_start: bool  #: False: each comes with a press of the switch
+    basket: NDArray[np.float64]  #: (3,), x, y, radius
+    basket_lights: NDArray[np.float64]  #: (k, 2)
+    switch: NDArray[np.float64]  #: (2,)
+    robot_radius: float
+
+
+def _scene(document: dict[str, Any]) -> Scene:
+    """Raises KeyError, TypeError or ValueError for what is no scene."""
+
+    def numbers(value: Any, *shape: int) -> NDArray[np.float64]:
+        array = np.array(value, np.float64)
+        if not np.isfinite(array).all():
+            raise ValueError("a length that is not finite")
+        return array.reshape(shape)
+
+    return Scene(
+        numbers([document["width"], document["height"]], 2),
+        numbers(document["walls"], -1, 4),
+        numbers(document["doors"], -1, 4),
+        numbers(document["balls"], -1, 2),
+        bool(document["balls_at_start"]),
+        numbers(document["basket"], 3),
+        numbers(document["basket_lights"], -1, 2),
+        numbers(document["switch"], 2),
+        float(numbers(document["robot_radius"])),
+    )
+
+
+class Report:
+    """What `lore-campaign report` wrote: into the campaign's directory, or elsewhere by --out.
+
+    Each table is read when it is asked for, and raises Damaged or FileNotFoundError (docs/manual/formats.md has their
+    columns; runs, replay, values and scene.json are not in every report).
+    """
+
+    path: str
+
+    def __init__(self, path: FilePath) -> None:
+        """Raises FileNotFoundError where no report is."""
+        self.path = os.fspath(path)
+        open(self._file("final.csv"), "rb").close()
+
+    def __repr__(self) -> str:
+        return f"<Report {self.path}>"
+
+    @property
+    def final(self) -> Table:
+        """A row a finished run: treatment, run, seed, balls of its best-of-run."""
+        return self._table("final.csv", treatment="text", run="int", seed="seed", balls="int")
+
+    @property
+    def runs(self) -> Table:
+        """The same, then generations, evaluations, signature, version."""
+        return self._table("runs.csv", treatment="text", run="int", seed="seed", balls="int", generations="int",
+                           evaluations="int", signature="text", version="text")  # fmt: skip
+
+    @property
+    def curves(self) -> Table:
+        """treatment, generation, runs, mean of the best-of-runs [balls], low, high (95 % bootstrap band)."""
+        return self._table("curves.csv", treatment="text", generation="int", runs="int", mean="float", low="float",
+                           high="float")  # fmt: skip
+
+    @property
+    def population(self) -> Table:
+        """What populations are like: a row a treatment and generation (0, 1, 2, 5, 10, 20, 50 and so on)."""
+        return self._table("population.csv", treatment="text", generation="int", runs="int", mean_balls="float",
+                           fronts="float", tied="float", best_shaping="float", shaping_at_max="float")  # fmt: skip
+
+    @property
+    def knowledge(self) -> Table:
+        """A row a knowledge base (kbs.csv)."""
+        return self._table("kbs.csv", knowledge="text", kind="text", source_run="int", seed="seed", balls="int",
+                           features="int", least_value="float", greatest_value="float")  # fmt: skip
+
+    @property
+    def comparisons(self) -> Table:
+        """A row a pair of treatments (pvalues.csv): a, b, n_a, n_b, u, p, p_holm, a12."""
+        return self._table("pvalues.csv", a="text", b="text", n_a="int", n_b="int", u="float", p="float",
+                           p_holm="float", a12="float")  # fmt: skip
+
+    @property
+    def replay(self) -> Table:
+        """The robots of figures 5 and 6 and of the page, a row a step."""
+        return self._table("replay.csv", replay="text", step="int", x="float", y="float", theta="float",
+                           carrying="int", door_open="int", switch_on="int", balls_mask="int",
+                           collected="int")  # fmt: skip
+
+    @property
+    def values(self) -> Table:
+        """The values of figures 5 and 6, a row a window: figure, knowledge, window, value."""
+        return self._table("values.csv", figure="text", knowledge="text", window="int", value="float")
+
+    @property
+    def scenes(self) -> dict[str, Scene]:
+        """By the name of the replay ("source/001"); the source run that figures 5 and 6 show comes first."""
+        document = read_json(self._file("scene.json"))
+        try:
+            return {str(replay["run"]): _scene(replay["scene"]) for replay in document["replays"]}
+        except (KeyError, TypeError, ValueError) as error:
+            raise Damaged(self._file("scene.json"), f"it does not describe replays: {error!r}") from error
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """summary.json."""
+        return read_json(self._file("summary.json"))
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """The label of each treatment and knowledge base, the treatments in the order of figures, the source's first.
+
+        Where summary.json is missing, names serve as labels, in the order of final.csv.
+        """
+        if not os.path.exists(self._file("summary.json")):
+            return {str(name): str(name) for name in dict.fromkeys(self.final["treatment"].tolist())}
+        try:
+            summary = self.summary
+            labels = {entry["treatment"]: entry["label"] for entry in summary["treatments"]}
+            for entry in summary.get("knowledge", []):
+                labels.setdefault(entry["knowledge"], entry["knowledge"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise Damaged(self._file("summary.json"), f"it does not describe treatments: {error}") from error
+        return labels
+
+    def _file(self, name: str) -> str:
+        return os.path.join(self.path, name)
+
+    def _table(self, name: str, **columns: str) -> Table:
+        return read_table(self._file(name), columns)
