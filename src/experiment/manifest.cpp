@@ -1,7 +1,7 @@
 #include <lore/experiment/manifest.h>
 
 #include <lore/archive/atomic_file.h>
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 #include <lore/core/error.h>
 #include <lore/core/names.h>
 #include <lore/core/whole_number.h>

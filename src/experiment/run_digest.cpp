@@ -1,6 +1,6 @@
 #include "run_digest.h"
 
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 
 #include <fmt/format.h>
 

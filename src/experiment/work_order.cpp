@@ -2,7 +2,7 @@
 
 #include "stop_request.h"
 
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/experiment/run.h>
 

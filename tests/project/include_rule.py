@@ -25,7 +25,7 @@ DOORS = {
     r"Random123/.*": ["core/random.cpp"],
     r"librsvg/.*|cairo.*": ["figure"],
     r"zstd.*|zlib\.h": ["archive"],
-    r"xxhash\.h": ["archive"],
+    r"xxhash\.h": ["archive", "core/checksum.cpp"],
     r"CLI/.*": ["tools"],
 }
 

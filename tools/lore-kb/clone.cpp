@@ -1,6 +1,6 @@
 #include "command.h"
 
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 #include <lore/archive/founders_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/core/progress.h>

@@ -5,7 +5,7 @@
 #include "support/sample_files.h"
 #include "support/scratch.h"
 
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 #include <lore/archive/knowledge_export.h>
 #include <lore/core/error.h>
 

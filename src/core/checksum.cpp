@@ -1,4 +1,4 @@
-#include <lore/archive/checksum.h>
+#include <lore/core/checksum.h>
 
 #include <lore/core/input_file.h>
 
