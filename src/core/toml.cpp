@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -13,11 +14,46 @@ namespace lore {
 
 namespace {
 
+constexpr std::string_view bare_key = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
 template <class Number>
 void check_range(TomlTable const& table, std::string_view key, Number value, Number least, Number most) {
     if (value < least || value > most)
         table.fail(key, fmt::format("{} is outside {} .. {}", value, least, most),
                    fmt::format("Take a number from {} to {}.", least, most));
+}
+
+/// Without control characters, so that it stays on its line.
+std::string quoted(std::string_view text) {
+    std::string all = "\"";
+    for (char const c : text) {
+        if (c == '"' || c == '\\') all.append(1, '\\').append(1, c);
+        else if (c == '\n') all += "\\n";
+        else if (c == '\t') all += "\\t";
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) all += fmt::format("\\u{:04X}", c);
+        else all += c;
+    }
+    return all + '"';
+}
+
+/// A value as TOML writes it, a float with its shortest digits; nothing for one that lines() refuses.
+std::optional<std::string> written(toml::node const& node) {
+    if (auto const text = node.as_string()) return quoted(text->get());
+    if (auto const truth = node.as_boolean()) return truth->get() ? "true" : "false";
+    if (auto const whole = node.as_integer()) return fmt::format("{}", whole->get());
+    if (auto const real = node.as_floating_point()) {
+        std::string const digits = fmt::format("{}", real->get());
+        return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;
+    }
+    toml::array const* const array = node.as_array();
+    if (array == nullptr) return std::nullopt;
+    std::string all;
+    for (toml::node const& element : *array) {
+        auto const one = written(element);
+        if (!one) return std::nullopt;
+        all.append(all.empty() ? "" : ", ").append(*one);
+    }
+    return "[" + all + "]";
 }
 
 }   // namespace
@@ -203,6 +239,29 @@ TomlTable TomlTable::required_table(std::string_view key) const {
     auto value = table(key);
     if (!value) fail(key, "the table is missing", "Add it.");
     return *std::move(value);
+}
+
+std::string TomlTable::lines() const {
+    std::map<std::string, std::string> sorted;
+    auto const add = [&](auto const& self, TomlTable const& table, std::string const& prefix) -> void {
+        for (std::string const& key : table.keys()) {
+            if (key.empty() || key.find_first_not_of(bare_key) != std::string::npos)
+                table.fail(key, "the key is not of letters, digits, '_' and '-'", "Rename it.");
+            toml::node const& node = *table.node_->find(key);
+            if (node.is_table()) {
+                self(self, *table.table(key), prefix + key + ".");
+            } else if (auto value = written(node)) {
+                sorted.emplace(prefix + key, *std::move(value));
+            } else {
+                table.fail(key, "it is neither a number, a text, true, false, nor an array of such",
+                           "Write one of them.");
+            }
+        }
+    };
+    add(add, *this, "");
+    std::string all;
+    for (auto const& [key, value] : sorted) all += fmt::format("{} = {}\n", key, value);
+    return all;
 }
 
 void TomlTable::reject_unknown() const {

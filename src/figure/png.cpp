@@ -26,9 +26,15 @@ struct Release {
 }
 
 std::string message_of(GError* error) {
-    std::string const message = error != nullptr ? error->message : "librsvg gives no reason";
+    std::string message = error != nullptr ? error->message : "librsvg gives no reason";
     if (error != nullptr) g_error_free(error);
+    while (message.ends_with('\n')) message.pop_back();
     return message;
+}
+
+std::unique_ptr<RsvgHandle, Release> parse(std::string_view svg, GError** error) {
+    return std::unique_ptr<RsvgHandle, Release>{
+        rsvg_handle_new_from_data(reinterpret_cast<guint8 const*>(svg.data()), svg.size(), error)};
 }
 
 cairo_status_t append(void* out, unsigned char const* data, unsigned length) {
@@ -38,10 +44,14 @@ cairo_status_t append(void* out, unsigned char const* data, unsigned length) {
 
 }   // namespace
 
+std::string why_no_svg(std::string_view text) {
+    GError* error = nullptr;
+    return parse(text, &error) ? std::string{} : message_of(error);
+}
+
 std::string render_png(std::string_view svg, double scale) {
     GError* error = nullptr;
-    std::unique_ptr<RsvgHandle, Release> const handle{
-        rsvg_handle_new_from_data(reinterpret_cast<guint8 const*>(svg.data()), svg.size(), &error)};
+    auto const handle = parse(svg, &error);
     if (!handle) fail(message_of(error));
     double width = 0, height = 0;
     if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height)) fail("it has no size in pixels");

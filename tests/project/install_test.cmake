@@ -1,5 +1,5 @@
 # Installs the build into a scratch prefix, builds docs/examples/newcomers against it and runs it: it must evolve what
-# lore-evolve does.
+# lore-evolve does. Then a world in C: compiled against the installed header, it keeps its contract.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
 
@@ -16,6 +16,11 @@ run(output ${CMAKE_COMMAND} -S ${SOURCE}/docs/examples/newcomers -B ${scratch}/b
   -DCMAKE_PREFIX_PATH=${scratch}/prefix
     -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(output ${CMAKE_COMMAND} --build ${scratch}/build)
+
+file(COPY ${scratch}/prefix/share/lore/examples/pendulum DESTINATION ${scratch})
+run(output cc -std=c99 -pedantic -Wall -Werror -O2 -ffp-contract=off -shared -fPIC -I${scratch}/prefix/include
+  ${scratch}/pendulum/pendulum.c -o ${scratch}/pendulum/pendulum.so -lm)
+run(output ${scratch}/prefix/bin/lore-world check --steps 100 --config ${scratch}/pendulum/source.toml)
 
 set(settings evolution.generations=3 evolution.population=20 evolution.founders=40 evolution.ties=older
   episode.steps=200)

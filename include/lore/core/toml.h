@@ -41,6 +41,11 @@ public:
     std::vector<std::array<double, 2>> required_pairs(std::string_view key) const;
     TomlTable required_table(std::string_view key) const;
 
+    /// All of it as text that is read line by line: "key = value\n" a key, in the order of the alphabet, values as TOML
+    /// writes them, the keys of inner tables as "table.key". Throws UsageError for dates, tables within arrays, and
+    /// keys that need quotes.
+    std::string lines() const;
+
     /// Throws if the table holds a key that no getter has asked for.
     void reject_unknown() const;
     /// A UsageError that names this document and, if the key is there, its line.

@@ -56,6 +56,9 @@ private:
     int clips_ = 0;
 };
 
+/// Why librsvg cannot read the text as an SVG document, or "" if it can.
+std::string why_no_svg(std::string_view text);
+
 /// PNG bytes of an SVG document, `scale` pixels per user unit (librsvg behind this door). Throws Error.
 std::string render_png(std::string_view svg, double scale = 1.5);
 

@@ -1,0 +1,107 @@
+#include <lore/world/open.h>
+
+#include <lore/core/checksum.h>
+#include <lore/core/error.h>
+#include <lore/core/input_file.h>
+#include <lore/core/toml.h>
+#include <lore/world/library.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lore {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of an installed Lore: bin/lore-world and lib/lore/worlds.
+fs::path installed_worlds() {
+    std::error_code failed;
+    fs::path const program = fs::read_symlink("/proc/self/exe", failed);
+    return failed ? fs::path{} : program.parent_path().parent_path() / LORE_LIBRARY_FOLDER / "lore" / "worlds";
+}
+
+std::vector<std::string> places_to_look(std::string const& folder) {
+    std::vector<std::string> places{folder.empty() ? "." : folder};
+    if (char const* const path = std::getenv("LORE_WORLD_PATH")) {
+        std::string_view rest{path};
+        while (!rest.empty()) {
+            std::size_t const end = std::min(rest.find(':'), rest.size());
+            if (end > 0) places.emplace_back(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+    }
+    if (fs::path const installed = installed_worlds(); !installed.empty()) places.push_back(installed.string());
+    return places;
+}
+
+bool is_file(fs::path const& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+OpenedWorld open_builtin(BuiltinWorld const& builtin, WorldRequest const& request, std::string const& task) {
+    return {{"", 0, 0, request.settings}, builtin.open(task, request.settings)};
+}
+
+[[noreturn]] void refuse_builtin(std::string const& name, std::span<BuiltinWorld const> builtins) {
+    std::vector<std::string_view> names;
+    for (BuiltinWorld const& builtin : builtins) names.push_back(builtin.name);
+    std::string const meant = nearest_word(name, names.data(), names.size());
+    throw UsageError(
+        fmt::format("there is no built-in world '{}'", name), fmt::format("those are: {}", fmt::join(names, ", ")),
+        meant.empty() ? "Correct the name, or give the path of a library." : fmt::format("Did you mean '{}'?", meant));
+}
+
+}   // namespace
+
+WorldRequest read_world_request(std::string const& config_file) {
+    TomlTable const file = TomlTable::read_file(config_file);
+    WorldRequest request;
+    request.folder = fs::path{config_file}.parent_path().string();
+    if (auto const world = file.table("world")) {
+        request.name = world->string("library").value_or("");
+        if (auto const settings = world->table("settings")) request.settings = settings->lines();
+        world->reject_unknown();
+    }
+    return request;
+}
+
+std::string find_library(std::string const& name, std::string const& folder) {
+    if (name.find('/') != std::string::npos) {
+        fs::path const path = fs::path{folder} / name;   // name alone where it is absolute or there is no folder
+        open_regular(path.string());                     // says what is wrong with the path
+        return path.string();
+    }
+    bool const has_ending = name.ends_with(".so");
+    std::vector<std::string> const files =
+        has_ending ? std::vector{name} : std::vector{name + ".so", "lib" + name + ".so"};
+    std::vector<std::string> const places = places_to_look(folder);
+    for (std::string const& place : places)
+        for (std::string const& file : files)
+            if (fs::path const path = fs::path{place} / file; is_file(path)) return path.string();
+    throw UsageError(fmt::format("cannot find world {}", name),
+                     fmt::format("there is no {} in {}", fmt::join(files, " or "), fmt::join(places, ", ")),
+                     "Compile it, give its path with a '/', or name its folder in LORE_WORLD_PATH.");
+}
+
+OpenedWorld open_world(WorldRequest const& request, std::span<BuiltinWorld const> builtins) {
+    std::size_t const colon = request.name.find(':');
+    std::string const name = request.name.substr(0, colon);
+    bool const is_path = request.name.find('/') != std::string::npos;
+    for (BuiltinWorld const& builtin : builtins)
+        if (!is_path && builtin.name == name)
+            return open_builtin(builtin, request, colon == std::string::npos ? "" : request.name.substr(colon + 1));
+    if (!is_path && colon != std::string::npos) refuse_builtin(name, builtins);
+    std::string const file = find_library(request.name, request.folder);
+    WorldOrigin origin{file, checksum_of_file(file), open_regular(file).size, request.settings};
+    return {std::move(origin), load_world(file, request.settings)};
+}
+
+}   // namespace lore

@@ -1,0 +1,45 @@
+#include "command.h"
+
+#include <lore/arena/collectball.h>
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace lore::world {
+
+void add_world(CLI::App* command, WorldOptions& options) {
+    command->add_option("WORLD", options.world,
+                        "path of a library (with a '/'), name of one to look for, or built-in world and its task "
+                        "(collectball:source)");
+    command->add_option("--config", options.config,
+                        "configuration whose [world] names the library and holds its settings");
+}
+
+WorldRequest request_for(WorldOptions const& options) {
+    WorldRequest request;
+    if (!options.config.empty()) request = read_world_request(options.config);
+    if (!options.world.empty()) {
+        request.name = options.world;
+        // A path on the command line begins where the user is; a name is looked for beside the configuration.
+        if (options.world.find('/') != std::string::npos) request.folder.clear();
+    }
+    if (request.name.empty() && options.config.empty())
+        throw UsageError("no world is named", "WORLD or --config is expected", "See 'lore-world --help'.");
+    if (request.name.empty())
+        throw UsageError(fmt::format("{} names no world", options.config), "it has no world.library",
+                         "Add it, or name WORLD as well.");
+    return request;
+}
+
+OpenedWorld open_world(WorldOptions const& options) {
+    std::array const builtins{collectball_world};
+    return lore::open_world(request_for(options), builtins);
+}
+
+std::string called(OpenedWorld const& opened) {
+    std::string const name = title(opened.world->facts());
+    return opened.origin.file.empty() ? name : fmt::format("{} from {}", name, opened.origin.file);
+}
+
+}   // namespace lore::world
