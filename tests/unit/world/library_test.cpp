@@ -117,7 +117,7 @@ TEST(Library, is_refused_with_facts_that_break_a_rule) {
                                                   {"no_width", "its width is nan"},
                                                   {"no_height", "its height is 0"}};
     for (auto const& [fault, saying] : told) {
-        std::string const complaint = complaint_of([&] { trial_world(fault); });
+        std::string const complaint = complaint_of([&fault = fault] { trial_world(fault); });
         EXPECT_THAT(complaint, StartsWith("cannot use world " + c_world("trial"))) << fault;
         EXPECT_THAT(complaint, HasSubstr(saying));
     }
@@ -140,7 +140,7 @@ TEST(Library, is_refused_where_it_is_none_or_of_another_version) {
                                                    "version 1"},
                                                   {c_world("hollow"), "its function act is NULL"}};
     for (auto const& [file, saying] : told) {
-        std::string const complaint = complaint_of([&] { load_world(file, ""); });
+        std::string const complaint = complaint_of([&file = file] { load_world(file, ""); });
         EXPECT_THAT(complaint, StartsWith("cannot use world " + file));
         EXPECT_THAT(complaint, HasSubstr(saying));
     }
