@@ -33,7 +33,8 @@ std::optional<FileLock> FileLock::take(std::string const& path) {
 }
 
 bool FileLock::is_taken(std::string const& path) {
-    FileDescriptor const file{::open(path.c_str(), O_RDWR | O_CLOEXEC)};
+    // To read is enough for a look: also of who may not write there.
+    FileDescriptor const file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (file.get() < 0) return false;
     struct flock lock = whole_file();
     return ::fcntl(file.get(), F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;

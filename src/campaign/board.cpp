@@ -1,4 +1,4 @@
-#include "board.h"
+#include <lore/campaign/board.h>
 
 #include <lore/core/standard_streams.h>
 

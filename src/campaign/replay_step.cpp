@@ -133,6 +133,10 @@ std::optional<std::string> replay_is_due(CampaignPlan const& plan, CampaignDirec
     return std::nullopt;
 }
 
+Replay replay_of(CampaignDirectory const& directory, std::string const& step) {
+    return replay_of(open_run(directory.run(step)), step, signature_of(directory, step));
+}
+
 void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     std::string const source = source_run(plan, from);
     if (source.empty())
@@ -145,7 +149,7 @@ void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, Campa
     RunDirectory const run = open_run(from.run(source));
     all.replays.push_back(replay_of(run, source, signature_of(from, source)));
     if (std::string const target = best_target_run(plan, from); !target.empty())
-        all.replays.push_back(replay_of(open_run(from.run(target)), target, signature_of(from, target)));
+        all.replays.push_back(replay_of(from, target));
 
     Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
     all.panels = panels_to_draw(plan, from);

@@ -1,10 +1,10 @@
 #include <lore/campaign/runner.h>
 
-#include "board.h"
 #include "scheduler.h"
-#include "stop_signals.h"
 #include "view.h"
 
+#include <lore/campaign/board.h>
+#include <lore/campaign/stop_signals.h>
 #include <lore/core/file.h>
 
 #include <chrono>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "board.h"
 #include "child.h"
 #include "task.h"
 
+#include <lore/campaign/board.h>
 #include <lore/campaign/runner.h>
 
 #include <map>

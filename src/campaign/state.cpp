@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -145,6 +146,23 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         state.reason = text(*failure);
     }
     return state;
+}
+
+std::vector<StepWithState> states_of(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    std::vector<StepWithState> all;
+    std::set<std::string> unfinished;   // groups; every step comes after those that it waits for
+    for (Step const& step : steps_of(plan)) {
+        StepState state = state_of(plan, directory, step);
+        if (state.status != StepStatus::done) unfinished.insert(step.group);
+        if (state.status == StepStatus::missing) {
+            auto const open = std::find_if(step.after.begin(), step.after.end(),
+                                           [&](std::string const& group) { return unfinished.contains(group); });
+            if (open != step.after.end()) state.reason = fmt::format("waits for {}", *open);
+            else if (state.reason.empty()) state.reason = "not started";
+        }
+        all.push_back({step, std::move(state)});
+    }
+    return all;
 }
 
 void write_failure(CampaignDirectory const& directory, Step const& step, FailureRecord const& failure) {

@@ -1,4 +1,4 @@
-#include "stop_signals.h"
+#include <lore/campaign/stop_signals.h>
 
 #include <atomic>
 #include <cmath>

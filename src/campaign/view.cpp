@@ -1,10 +1,8 @@
 #include "view.h"
 
-#include "board.h"
-
+#include <lore/campaign/board.h>
+#include <lore/campaign/time_left.h>
 #include <lore/core/progress.h>
-
-#include <map>
 
 #include <fmt/format.h>
 
@@ -12,34 +10,15 @@ namespace lore {
 
 namespace {
 
-/// Seconds that a generation of this treatment takes, from what its runs have shown, else from any; 0 if none has
-/// shown anything.
-double seconds_per_generation(std::vector<Task> const& tasks, std::string const& group) {
-    double seconds = 0, generations = 0, all_seconds = 0, all_generations = 0;
-    for (Task const& task : tasks) {
-        if (!task.is_run() || task.generation == 0) continue;
-        all_seconds += task.seconds;
-        all_generations += task.generation;
-        if (task.step.group != group) continue;
-        seconds += task.seconds;
-        generations += task.generation;
-    }
-    if (generations > 0) return seconds / generations;
-    return all_generations > 0 ? all_seconds / all_generations : 0;
-}
-
-/// Seconds of work that are left in all runs together.
+/// Of all runs together.
 double work_left(std::vector<Task> const& tasks) {
-    double left = 0;
-    std::map<std::string, double> cost;
+    std::vector<RunPace> runs;
     for (Task const& task : tasks) {
-        if (!task.is_run() || task.phase == Phase::done || task.phase == Phase::failed || task.phase == Phase::blocked)
-            continue;
-        auto const known = cost.try_emplace(task.step.group, -1).first;
-        if (known->second < 0) known->second = seconds_per_generation(tasks, task.step.group);
-        left += known->second * (task.generations - task.generation);
+        if (!task.is_run()) continue;
+        bool const ended = task.phase == Phase::done || task.phase == Phase::failed || task.phase == Phase::blocked;
+        runs.push_back({task.step.group, task.generation, task.generations, task.seconds, !ended});
     }
-    return left;
+    return work_left(runs);
 }
 
 std::string run_line(Task const& task) {

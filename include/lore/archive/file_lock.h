@@ -17,6 +17,7 @@ public:
     /// Makes the file, and its directory, where they are missing. Nothing if another process has the lock; throws Error
     /// where the file cannot be made, or its file system knows no locks.
     static std::optional<FileLock> take(std::string const& path);
+    /// Only looks: makes nothing, and needs no permission to write. False where the file cannot be read.
     static bool is_taken(std::string const& path);
     int descriptor() const { return file_.get(); }
 

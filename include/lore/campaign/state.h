@@ -26,6 +26,13 @@ struct StepState {
 enum class Locks : std::uint8_t { looked_at, ignored };
 StepState state_of(CampaignPlan const&, CampaignDirectory const&, Step const&, Locks locks = Locks::looked_at);
 
+struct StepWithState {
+    Step step;
+    StepState state;
+};
+/// All steps of the campaign in their order; the reason of a missing one is what it waits for.
+std::vector<StepWithState> states_of(CampaignPlan const&, CampaignDirectory const&);
+
 /// The recorded choice of source runs, or nothing.
 std::optional<Choice> recorded_choice(CampaignDirectory const&);
 

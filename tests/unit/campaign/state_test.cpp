@@ -15,6 +15,15 @@ TEST_F(State, of_everything_is_missing_at_first) {
         EXPECT_EQ(state_of(plan(), directory(), step).status, StepStatus::missing) << step.name;
 }
 
+TEST_F(State, of_a_missing_step_says_what_it_waits_for) {
+    for (auto const& [step, state] : states_of(plan(), directory())) {
+        bool const waits = step.kind != StepKind::evolve || step.subject == "kb1" || step.subject == "all";
+        EXPECT_EQ(state.reason.starts_with("waits for "), waits) << step.name << ": " << state.reason;
+        if (step.name == "kb1/001") { EXPECT_EQ(state.reason, "waits for knowledge/kb1"); }
+        if (!waits) { EXPECT_EQ(state.reason, "not started"); }
+    }
+}
+
 TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     EXPECT_EQ(state("source/001").status, StepStatus::done);
