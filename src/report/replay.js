@@ -1,0 +1,89 @@
+// Replay: the arena as SVG, the robot where the slider says.
+const replays = JSON.parse(document.getElementById("replay-data")?.textContent ?? "[]");
+if (replays.length > 0) {
+  const stage = document.getElementById("replay-stage");
+  const slider = document.getElementById("replay-slider");
+  const chooser = document.getElementById("replay-chooser");
+  const play = document.getElementById("replay-play");
+  const state = document.getElementById("replay-state");
+  const make = (name, attributes, parent = stage) => {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    parent.append(element);
+    return element;
+  };
+  // White for nothing to blue for the highest value; gray where the knowledge base does not find the window.
+  const shade = (value, most) => {
+    if (value < 0) return "#bbbbbb";
+    const share = most > 0 ? value / most : 0, mix = (a, b) => Math.round(a + (b - a) * share);
+    return `rgb(${mix(222, 8)},${mix(235, 48)},${mix(247, 107)})`;
+  };
+  let shown, parts, timer = null;
+
+  function open(replay) {
+    shown = replay;
+    stage.replaceChildren();
+    const arena = replay.arena;
+    stage.setAttribute("viewBox", `0 0 ${arena.width} ${arena.height}`);
+    const rectangle = ([x0, x1, y0, y1], fill) => make("rect", { x: x0, y: y0, width: x1 - x0, height: y1 - y0, fill });
+    make("circle", { cx: arena.basket[0], cy: arena.basket[1], r: arena.basket[2], fill: "#f0e442", "fill-opacity": .5 });
+    for (const wall of arena.walls) rectangle(wall, "#555555");
+    const most = Math.max(0, ...replay.values);
+    const trail = make("g", { fill: "none", "stroke-width": 2.2, "stroke-linecap": "round" });
+    const stretch = replay.values.length ? Math.ceil(replay.x.length / replay.values.length) : 20;
+    const trails = [];
+    for (let from = 0; from < replay.x.length - 1; from += stretch) {
+      const points = [];
+      for (let k = from; k <= Math.min(from + stretch, replay.x.length - 1); ++k) points.push(`${replay.x[k]},${replay.y[k]}`);
+      const value = replay.values.length ? replay.values[Math.floor(from / stretch)] : -1;
+      trails.push(make("polyline", { points: points.join(" "), stroke: shade(value, most) }, trail));
+    }
+    parts = {
+      trails, stretch,
+      doors: arena.doors.map(door => rectangle(door, "#cc79a7")),
+      balls: arena.balls.map(([x, y]) => make("circle", { cx: x, cy: y, r: 6, fill: "#d55e00" })),
+      lamp: make("circle", { cx: arena.switch[0], cy: arena.switch[1], r: 7, stroke: "#222222" }),
+      robot: make("g", { id: "replay-robot" }),
+    };
+    parts.body = make("circle", { r: arena.radius, stroke: "#222222", "stroke-width": 1.5 }, parts.robot);
+    make("line", { x1: 0, y1: 0, x2: arena.radius, y2: 0, stroke: "#222222", "stroke-width": 2 }, parts.robot);
+    slider.max = replay.x.length - 1;
+    slider.value = 0;
+    show();
+  }
+
+  function show() {
+    const k = Number(slider.value), arena = shown.arena;
+    parts.robot.setAttribute("transform", `translate(${shown.x[k]} ${shown.y[k]}) rotate(${shown.theta[k] * 180 / Math.PI})`);
+    const events = shown.events.findLast(event => event[0] <= k);
+    const [, carrying, door, lamp, mask, collected] = events;
+    parts.body.setAttribute("fill", carrying ? "#d55e00" : "#ffffff");
+    for (const part of parts.doors) part.setAttribute("visibility", door ? "hidden" : "visible");
+    parts.balls.forEach((ball, i) => ball.setAttribute("visibility", mask >> i & 1 ? "visible" : "hidden"));
+    parts.lamp.setAttribute("fill", lamp ? "#56b4e9" : "#ffffff");
+    parts.trails.forEach((piece, i) => piece.setAttribute("opacity", i * parts.stretch <= k ? 1 : .18));
+    const value = shown.values.length ? shown.values[Math.min(Math.floor(k / parts.stretch), shown.values.length - 1)] : null;
+    state.textContent = `step ${k} of ${shown.x.length - 1}, ${collected} ${collected === 1 ? "ball" : "balls"} collected` +
+      (carrying ? ", carrying" : "") + (value === null ? "" : value < 0 ? ", window not in the knowledge base" : `, value ${value}`);
+  }
+
+  function stop() {
+    if (timer !== null) clearInterval(timer);
+    timer = null;
+    play.textContent = "Play";
+  }
+
+  slider.addEventListener("input", () => { stop(); show(); });
+  chooser.addEventListener("change", () => { stop(); open(replays[Number(chooser.value)]); });
+  play.addEventListener("click", () => {
+    if (timer !== null) return stop();
+    if (Number(slider.value) >= Number(slider.max)) slider.value = 0;
+    play.textContent = "Pause";
+    timer = setInterval(() => {
+      slider.value = Number(slider.value) + 4;
+      show();
+      if (Number(slider.value) >= Number(slider.max)) stop();
+    }, 33);
+  });
+  open(replays[0]);
+}
