@@ -1,0 +1,65 @@
+#pragma once
+
+#include <lore/campaign/state.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lore {
+
+/// A point of a mean curve: the best-of-run of the runs that have reached the generation.
+struct MeanPoint {
+    int generation = 0;
+    double mean = 0;   ///< [balls]
+    int runs = 0;
+    friend bool operator==(MeanPoint const&, MeanPoint const&) = default;
+};
+
+/// At most 201 points from generation 0 to the last that any run has reached. `runs`: balls of the best by generation.
+std::vector<MeanPoint> mean_curve(std::vector<std::vector<int>> const& runs);
+
+/// How far the runs of a treatment have come.
+struct TreatmentFacts {
+    std::string name, label;
+    int planned = 0;   ///< runs
+    int started = 0;   ///< of them, those with a generation
+    int done = 0, running = 0, failed = 0;
+    double mean_balls = 0;   ///< of the best so far of those started
+    int best_balls = 0;      ///< of all of them
+    std::vector<MeanPoint> curve;
+};
+
+struct FailureFacts {
+    std::string step, reason;
+    std::string log;                 ///< path
+    std::vector<std::string> tail;   ///< its last lines, as the failure was recorded; may be empty
+};
+
+/// The finished run of a task that collects most, the first among equals in the report's order.
+struct Champion {
+    std::string run;     ///< "kb1/007"
+    std::string label;   ///< of its treatment
+    int balls = 0;
+    std::string signature;   ///< of that run
+    std::string problem;     ///< why it cannot be replayed; empty if it can
+};
+
+/// A campaign as its directory shows it at one time: what the page, the JSON document and the terminal show.
+struct CampaignFacts {
+    std::string title, directory;
+    std::string time;     ///< UTC, ISO 8601
+    std::string notice;   ///< what people should know first: that the directory is not there yet, or cannot be read
+    std::vector<StepWithState> steps;
+    std::vector<TreatmentFacts> treatments;   ///< the source task first, then in the report's order
+    std::vector<FailureFacts> failures;       ///< the first 50
+    std::vector<Champion> champions;          ///< of the source task, of the target task
+    double share = 0;                         ///< of the planned generations, 0 to 1
+    std::optional<double> seconds_left;       ///< at the present number of runs; nothing if none is running
+    int count(StepStatus) const;              ///< steps
+};
+
+/// The facts as a JSON document, in the fields of docs/manual/formats.md. Text that is no UTF-8 is replaced.
+std::string facts_json(CampaignFacts const&);
+
+}   // namespace lore

@@ -1,0 +1,100 @@
+#include <lore/watch/text_view.h>
+
+#include <lore/campaign/board.h>
+#include <lore/core/progress.h>
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+/// Bytes of the UTF-8 character at the start of `text` that a terminal may show; 0 if it is none.
+std::size_t shown_bytes(std::string_view text) {
+    auto const byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+    std::size_t const length = byte(0) >= 0xf5   ? 0
+                               : byte(0) >= 0xf0 ? 4
+                               : byte(0) >= 0xe0 ? 3
+                               : byte(0) >= 0xc2 ? 2
+                                                 : 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    bool const control = byte(0) == 0xc2 && byte(1) < 0xa0;
+    return control ? 0 : length;
+}
+
+std::string balls(int number) { return fmt::format("{} {}", number, number == 1 ? "ball" : "balls"); }
+
+std::string run_line(Step const& step, StepState const& state) {
+    if (state.generations == 0) return fmt::format("  {:<22} at work", step.name);
+    double const share = static_cast<double>(state.generation) / state.generations;
+    double const left = state.generation > 0 ? state.seconds / share - state.seconds : 0;
+    return fmt::format("  {:<22} {} {:>6}/{}  best {}{}", step.name, bar(share, 20), state.generation,
+                       state.generations, balls(state.best_balls),
+                       left > 0 ? fmt::format("  {} left", duration_text(left)) : "");
+}
+
+std::string treatment_line(TreatmentFacts const& facts) {
+    std::string line = fmt::format("  {:<22} {:>4} of {:<4} done", facts.name, facts.done, facts.planned);
+    if (facts.started > 0) line += fmt::format("  mean {:.2f}, best {}", facts.mean_balls, balls(facts.best_balls));
+    if (facts.failed > 0) line += fmt::format("  {} failed", facts.failed);
+    return line;
+}
+
+}   // namespace
+
+std::string harmless(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        std::size_t const length = shown_bytes(text);
+        if (length == 0) out += '?';
+        else out += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(1, length));
+    }
+    return out;
+}
+
+std::string summary_of(CampaignFacts const& facts) {
+    std::string line = fmt::format("{} {} of {} steps done, {} running, {} failed", bar(facts.share, 10),
+                                   facts.count(StepStatus::done), facts.steps.size(), facts.count(StepStatus::running),
+                                   facts.count(StepStatus::failed));
+    if (facts.seconds_left) line += fmt::format(", about {} left", duration_text(*facts.seconds_left));
+    return line;
+}
+
+std::vector<std::string> picture_of(CampaignFacts const& facts) {
+    std::vector<std::string> lines{harmless(facts.title)};
+    for (TreatmentFacts const& treatment : facts.treatments) lines.push_back(treatment_line(treatment));
+    for (auto const& [step, state] : facts.steps)
+        if (state.status == StepStatus::running) lines.push_back(run_line(step, state));
+    for (FailureFacts const& failure : facts.failures) {
+        lines.push_back(harmless(fmt::format("  {} failed: {}", failure.step, failure.reason)));
+        if (!failure.tail.empty()) lines.push_back(harmless(fmt::format("      {}", failure.log)));
+        for (std::string const& line : failure.tail) lines.push_back(harmless(fmt::format("      {}", line)));
+    }
+    if (!facts.notice.empty()) lines.push_back(harmless(facts.notice));
+    lines.push_back(summary_of(facts));
+    return lines;
+}
+
+std::vector<std::string> changes_between(CampaignFacts const& before, CampaignFacts const& now) {
+    std::vector<std::string> lines;
+    auto const say = [&](std::string_view what) { lines.push_back(harmless(fmt::format("{} {}", now.time, what))); };
+    if (now.notice != before.notice && !now.notice.empty()) say(now.notice);
+    std::map<std::string, StepStatus> former;
+    for (auto const& [step, state] : before.steps) former[step.name] = state.status;
+    for (auto const& [step, state] : now.steps) {
+        auto const known = former.find(step.name);
+        StepStatus const was = known == former.end() ? StepStatus::missing : known->second;
+        if (state.status != was)
+            say(fmt::format("{} {}{}{}", step.name, name(state.status), state.reason.empty() ? "" : ": ",
+                            state.reason));
+    }
+    return lines;
+}
+
+}   // namespace lore

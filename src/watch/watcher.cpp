@@ -1,0 +1,188 @@
+#include <lore/watch/watcher.h>
+
+#include "curves.h"
+
+#include <lore/campaign/replay_step.h>
+#include <lore/campaign/time_left.h>
+#include <lore/core/error.h>
+#include <lore/experiment/manifest.h>
+#include <lore/experiment/run_directory.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_failures = 50;   ///< shown with their logs
+
+bool is_run(Step const& step) { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
+
+/// The source task first.
+std::vector<std::string> names_in_order(CampaignPlan const& plan) {
+    std::vector<std::string> names{plan.source.name};
+    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
+    return names;
+}
+
+TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory const& directory,
+                               std::vector<StepWithState> const& steps, ProgressMemory& progress) {
+    TreatmentFacts facts;
+    facts.name = treatment.name;
+    facts.label = treatment.label;
+    facts.planned = treatment.runs;
+    std::vector<std::vector<int>> runs;
+    for (auto const& [step, state] : steps) {
+        if (step.kind != StepKind::evolve || step.subject != treatment.name) continue;
+        facts.done += state.status == StepStatus::done;
+        facts.running += state.status == StepStatus::running;
+        facts.failed += state.status == StepStatus::failed;
+        std::vector<int> const& balls = progress.best_balls(directory.run(step.name));
+        if (balls.empty()) continue;
+        ++facts.started;
+        facts.mean_balls += balls.back();
+        facts.best_balls = std::max(facts.best_balls, balls.back());
+        runs.push_back(balls);
+    }
+    if (facts.started > 0) facts.mean_balls /= facts.started;
+    facts.curve = mean_curve(runs);
+    return facts;
+}
+
+std::vector<FailureFacts> failures_among(std::vector<StepWithState> const& steps, CampaignDirectory const& directory) {
+    std::vector<FailureFacts> failures;
+    for (auto const& [step, state] : steps) {
+        if (state.status != StepStatus::failed) continue;
+        if (failures.size() == most_failures) break;
+        auto const record = read_failure(directory, step);
+        failures.push_back({step.name, state.reason, directory.log(step.name),
+                            record ? record->log_tail : std::vector<std::string>{}});
+    }
+    return failures;
+}
+
+/// Fills what the facts say of all runs together.
+void add_progress(CampaignFacts& facts) {
+    std::vector<RunPace> paces;
+    double reached = 0, planned = 0;
+    int running = 0;
+    for (auto const& [step, state] : facts.steps) {
+        if (!is_run(step)) continue;
+        bool const ended = state.status == StepStatus::done || state.status == StepStatus::failed;
+        paces.push_back({step.group, state.generation, state.generations, state.seconds, !ended});
+        reached += state.status == StepStatus::done ? state.generations : std::min(state.generation, state.generations);
+        planned += state.generations;
+        running += state.status == StepStatus::running;
+    }
+    facts.share = planned > 0 ? reached / planned : 0;
+    double const left = work_left(paces);
+    if (running > 0 && left > 0) facts.seconds_left = left / running;
+}
+
+/// The finished run of these treatments with most balls, the first among equals; nothing if none is finished.
+std::optional<Champion> champion_of(CampaignPlan const& plan, std::vector<std::string> const& treatments,
+                                    CampaignFacts const& facts) {
+    std::optional<Champion> best;
+    for (std::string const& name : treatments)
+        for (auto const& [step, state] : facts.steps) {
+            if (step.kind != StepKind::evolve || step.subject != name || state.status != StepStatus::done) continue;
+            if (best && state.best_balls <= best->balls) continue;
+            best = Champion{step.name, plan.treatment(name).label, state.best_balls, "", ""};
+        }
+    return best;
+}
+
+}   // namespace
+
+struct CampaignWatcher::Memory {
+    /// A champion that was simulated, or could not be.
+    struct Seen {
+        Champion champion;
+        std::optional<Replay> replay;
+    };
+
+    std::string file;
+    CampaignDirectory directory;
+    FileStamp file_stamp;
+    CampaignPlan plan;
+    ProgressMemory progress;
+    std::vector<Seen> seen;
+    CampaignFacts last;
+
+    Memory(std::string of_file, std::string of_directory)
+        : file(std::move(of_file)), directory(std::move(of_directory)), plan(read_campaign(file)) {
+        file_stamp = stamp_of(plan.path);
+    }
+
+    void read_plan_again() {
+        FileStamp const stamp = stamp_of(plan.path);
+        if (stamp == file_stamp) return;
+        plan = read_campaign(file);
+        file_stamp = stamp;
+    }
+
+    Seen replayed(Champion champion) {
+        try {
+            champion.signature =
+                read_manifest((fs::path{directory.run(champion.run)} / run_file::manifest).string()).signature;
+            for (Seen const& known : seen)
+                if (known.champion.run == champion.run && known.champion.signature == champion.signature) return known;
+            Replay replay = replay_of(directory, champion.run);
+            return {std::move(champion), std::move(replay)};
+        } catch (std::exception const& error) {
+            champion.problem = error.what();
+            return {std::move(champion), std::nullopt};
+        }
+    }
+
+    CampaignFacts facts() {
+        read_plan_again();
+        CampaignFacts now;
+        now.title = plan.title;
+        now.directory = directory.path();
+        if (!fs::is_directory(directory.path()))
+            now.notice = fmt::format("Waiting for {}: 'lore-campaign run' makes it.", directory.path());
+        now.steps = states_of(plan, directory);
+        for (std::string const& name : names_in_order(plan))
+            now.treatments.push_back(treatment_facts(plan.treatment(name), directory, now.steps, progress));
+        now.failures = failures_among(now.steps, directory);
+        add_progress(now);
+        std::vector<Seen> champions;
+        for (auto const& names : {std::vector{plan.source.name}, plan.report_order})
+            if (auto champion = champion_of(plan, names, now)) champions.push_back(replayed(*std::move(champion)));
+        seen = std::move(champions);
+        for (Seen const& one : seen) now.champions.push_back(one.champion);
+        return now;
+    }
+};
+
+CampaignWatcher::CampaignWatcher(std::string file, std::string directory)
+    : memory_(std::make_unique<Memory>(std::move(file), std::move(directory))) {}
+CampaignWatcher::~CampaignWatcher() = default;
+
+CampaignFacts CampaignWatcher::look() {
+    CampaignFacts& last = memory_->last;
+    try {
+        last = memory_->facts();
+    } catch (std::exception const& error) {
+        last.title = memory_->plan.title;
+        last.directory = memory_->directory.path();
+        last.notice = error.what();
+    }
+    last.time = time_stamp();
+    return last;
+}
+
+std::vector<Replay> CampaignWatcher::replays() const {
+    std::vector<Replay> all;
+    for (Memory::Seen const& one : memory_->seen)
+        if (one.replay) all.push_back(*one.replay);
+    return all;
+}
+
+}   // namespace lore
