@@ -29,6 +29,7 @@ DOORS = {
     r"dlfcn\.h": ["world/library.cpp"],
     r"lore/world\.h": ["world"],
     r"CLI/.*": ["tools"],
+    r"microhttpd\.h": ["tools/http_server.cpp"],
 }
 
 root = pathlib.Path(sys.argv[1])

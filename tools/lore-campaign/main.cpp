@@ -39,6 +39,7 @@ constexpr char help[] =
     "  lore-campaign submit jobs/campaigns/paper.toml --dir runs/paper           do it on a Slurm cluster\n"
     "  lore-campaign report jobs/campaigns/paper.toml --dir runs/paper           runs/paper/report.html\n"
     "  lore-campaign status jobs/campaigns/paper.toml --dir runs/paper           how far it has come\n"
+    "  lore-campaign watch  jobs/campaigns/paper.toml --dir runs/paper           the same in a browser, all the time\n"
     "  lore-campaign test   a.csv b.csv                                compare two columns of numbers\n\n"
     "Exit codes: 0 done, 1 something failed, 2 command line or campaign file, 75 interrupted: call it again.";
 
@@ -57,7 +58,7 @@ int start(int argc, char** argv) {
     app.fallthrough();
     app.add_flag("-q,--quiet", arguments.quiet, "say only what went wrong");
 
-    std::array const subcommands{&plan, &run, &submit, &report, &replay, &status, &test};
+    std::array const subcommands{&plan, &run, &submit, &report, &replay, &status, &watch, &test};
     for (Subcommand const* const subcommand : subcommands)
         subcommand->add_options(*app.add_subcommand(subcommand->name, subcommand->description), arguments);
 

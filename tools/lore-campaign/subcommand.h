@@ -21,6 +21,8 @@ struct Arguments {
     std::string out;             ///< of `report`
     std::string first, second;   ///< of `test`
     bool interval = false;
+    int port = -1;   ///< of `watch`; -1: none was given
+    bool as_text = false;
     bool quiet = false;
 };
 
@@ -32,7 +34,7 @@ struct Subcommand {
     ExitCode (*work)(Arguments const&);
 };
 
-extern Subcommand const plan, run, submit, report, replay, status, test;
+extern Subcommand const plan, run, submit, report, replay, status, test, watch;
 
 /// FILE and --dir, of all that work on a campaign.
 void add_campaign(CLI::App&, Arguments&);

@@ -5,51 +5,13 @@ Loads it without network, looks for console errors, sorts a table, drags the rep
 Leaves report.png and report.pdf in the scratch directory.
 """
 import base64
-import json
 import pathlib
-import socket
-import subprocess
 import sys
-import tempfile
 import time
-import urllib.error
-import urllib.request
+
+from browser import browser
 
 report, scratch = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-
-
-class Browser:
-    """The few words of the WebDriver protocol that are needed."""
-
-    def __init__(self, port, profile):
-        self.base = f"http://127.0.0.1:{port}"
-        arguments = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-                     "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--window-size=1100,900",
-                     "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}"]
-        answer = self.call("POST", "/session", {"capabilities": {"alwaysMatch": {
-            "browserName": "chrome", "goog:chromeOptions": {"args": arguments}, "goog:loggingPrefs": {"browser": "ALL"}}}})
-        self.base += f"/session/{answer['sessionId']}"
-
-    def call(self, method, path, body=None):
-        data = None if method in ("GET", "DELETE") else json.dumps(body or {}).encode()
-        request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
-        try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
-                return json.load(answer)["value"]
-        except urllib.error.HTTPError as error:
-            sys.exit(f"{method} {path}: {error.read().decode()[:500]}")
-
-    def script(self, code, *arguments):
-        return self.call("POST", "/execute/sync", {"script": code, "args": list(arguments)})
-
-    def element(self, selector):
-        return next(iter(self.call("POST", "/element", {"using": "css selector", "value": selector}).values()))
-
-    def click(self, selector):
-        self.call("POST", f"/element/{self.element(selector)}/click")
-
-    def type(self, selector, keys):
-        self.call("POST", f"/element/{self.element(selector)}/value", {"text": keys})
 
 
 def check(holds, what):
@@ -58,75 +20,52 @@ def check(holds, what):
     failures += not holds
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 failures = 0
-port = free_port()
-driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-try:
-    for _ in range(200):
-        try:
-            urllib.request.urlopen(f"http://127.0.0.1:{port}/status", timeout=5)
-            break
-        except OSError:
-            time.sleep(0.1)
-    with tempfile.TemporaryDirectory() as profile:
-        page = Browser(port, profile)
-        page.call("POST", "/url", {"url": report.as_uri()})
+with browser() as page:
+    page.call("POST", "/url", {"url": report.as_uri()})
 
-        errors = [entry["message"] for entry in page.call("POST", "/se/log", {"type": "browser"})]
-        check(not errors, f"the page loads without a word on the console {errors}")
-        loaded = page.script("return performance.getEntriesByType('resource').map(entry => entry.name)")
-        check(not [name for name in loaded if not name.startswith("data:")], f"nothing is loaded besides {loaded}")
-        check(page.script("return new Set([...document.querySelectorAll('[id]')].map(e => e.id)).size === document.querySelectorAll('[id]').length"),
-              "ids are unique")
-        check(page.script("return document.querySelectorAll('figure svg').length") >= 4, "four figures are there")
+    errors = page.errors()
+    check(not errors, f"the page loads without a word on the console {errors}")
+    loaded = page.script("return performance.getEntriesByType('resource').map(entry => entry.name)")
+    check(not [name for name in loaded if not name.startswith("data:")], f"nothing is loaded besides {loaded}")
+    check(page.script("return new Set([...document.querySelectorAll('[id]')].map(e => e.id)).size === document.querySelectorAll('[id]').length"),
+          "ids are unique")
+    check(page.script("return document.querySelectorAll('figure svg').length") >= 4, "four figures are there")
 
-        # Sorting: by balls, then the other way round.
-        balls = "return [...document.querySelectorAll('#runs tbody tr')].map(row => Number(row.cells[3].textContent))"
-        before = page.script(balls)
-        page.click("#runs th:nth-child(4) button")
-        check(page.script(balls) == sorted(before) != before, "a click on 'balls' sorts the runs")
-        page.click("#runs th:nth-child(4) button")
-        check(page.script(balls) == sorted(before, reverse=True), "a second click sorts them the other way round")
-        check(page.script("return document.querySelector('#runs th:nth-child(4)').ariaSort") == "descending", "and says so to screen readers")
-        page.click("#pairs th:nth-child(6) button")
-        values = page.script("return [...document.querySelectorAll('#pairs tbody tr')].map(row => Number(row.cells[5].dataset.value))")
-        check(values == sorted(values) and len(values) == 3, "p-values sort as numbers, not as text")
+    # Sorting: by balls, then the other way round.
+    balls = "return [...document.querySelectorAll('#runs tbody tr')].map(row => Number(row.cells[3].textContent))"
+    before = page.script(balls)
+    page.click("#runs th:nth-child(4) button")
+    check(page.script(balls) == sorted(before) != before, "a click on 'balls' sorts the runs")
+    page.click("#runs th:nth-child(4) button")
+    check(page.script(balls) == sorted(before, reverse=True), "a second click sorts them the other way round")
+    check(page.script("return document.querySelector('#runs th:nth-child(4)').ariaSort") == "descending", "and says so to screen readers")
+    page.click("#pairs th:nth-child(6) button")
+    values = page.script("return [...document.querySelectorAll('#pairs tbody tr')].map(row => Number(row.cells[5].dataset.value))")
+    check(values == sorted(values) and len(values) == 3, "p-values sort as numbers, not as text")
 
-        # Replay: the slider moves the robot, by keyboard as by hand.
-        place = "return document.getElementById('replay-robot').getAttribute('transform')"
-        start = page.script(place)
-        page.type("#replay-slider", "\ue014" * 30)   # arrow right
-        check(page.script("return Number(document.getElementById('replay-slider').value)") == 30, "30 keys move the slider 30 steps")
-        check(page.script(place) != start, f"the robot has moved from {start} to {page.script(place)}")
-        check("step 30 of" in page.script("return document.getElementById('replay-state').textContent"), "the step is told")
-        page.type("#replay-slider", "\ue010")        # end
-        check("1 ball collected" in page.script("return document.getElementById('replay-state').textContent"), "at the end one ball is collected")
-        page.type("#replay-slider", "\ue011")        # home
-        check(page.script(place) == start, "back at the start the robot is where it was")
-        page.click("#replay-play")
-        time.sleep(1)
-        check(page.script("return Number(document.getElementById('replay-slider').value)") > 0, "play moves it too")
-        page.script("const chooser = document.getElementById('replay-chooser'); chooser.selectedIndex = 1; chooser.dispatchEvent(new Event('change'))")
-        check(page.script("return document.querySelectorAll('#replay-stage [fill=\"#cc79a7\"]').length") == 0, "the target task has no door")
+    # Replay: the slider moves the robot, by keyboard as by hand.
+    place = "return document.getElementById('replay-robot').getAttribute('transform')"
+    start = page.script(place)
+    page.type("#replay-slider", "\ue014" * 30)   # arrow right
+    check(page.script("return Number(document.getElementById('replay-slider').value)") == 30, "30 keys move the slider 30 steps")
+    check(page.script(place) != start, f"the robot has moved from {start} to {page.script(place)}")
+    check("step 30 of" in page.script("return document.getElementById('replay-state').textContent"), "the step is told")
+    page.type("#replay-slider", "\ue010")        # end
+    check("1 ball collected" in page.script("return document.getElementById('replay-state').textContent"), "at the end one ball is collected")
+    page.type("#replay-slider", "\ue011")        # home
+    check(page.script(place) == start, "back at the start the robot is where it was")
+    page.click("#replay-play")
+    time.sleep(1)
+    check(page.script("return Number(document.getElementById('replay-slider').value)") > 0, "play moves it too")
+    page.script("const chooser = document.getElementById('replay-chooser'); chooser.selectedIndex = 1; chooser.dispatchEvent(new Event('change'))")
+    check(page.script("return document.querySelectorAll('#replay-stage [fill=\"#cc79a7\"]').length") == 0, "the target task has no door")
 
-        errors = [entry["message"] for entry in page.call("POST", "/se/log", {"type": "browser"})]
-        check(not errors, f"nothing went wrong meanwhile {errors}")
-        page.type("#replay-slider", "\ue014" * 10)
-        page.script("window.scrollTo(0, 0)")
-        height = page.script("return document.documentElement.scrollHeight")
-        page.call("POST", "/window/rect", {"width": 1100, "height": min(height + 150, 12000)})
-        (scratch / "report.png").write_bytes(base64.b64decode(page.call("GET", "/screenshot")))
-        pdf = base64.b64decode(page.call("POST", "/print", {}))
-        (scratch / "report.pdf").write_bytes(pdf)
-        check(pdf.startswith(b"%PDF"), "it prints")
-        page.call("DELETE", "")
-finally:
-    driver.terminate()
-    driver.wait()
+    errors = page.errors()
+    check(not errors, f"nothing went wrong meanwhile {errors}")
+    page.type("#replay-slider", "\ue014" * 10)
+    page.photograph(scratch / "report.png")
+    pdf = base64.b64decode(page.call("POST", "/print", {}))
+    (scratch / "report.pdf").write_bytes(pdf)
+    check(pdf.startswith(b"%PDF"), "it prints")
 sys.exit(1 if failures else 0)
