@@ -2,10 +2,10 @@
  *
  * A world is a shared library that exports the function `lore_world`. Compile it with
  *
- *     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC mine.c -o mine.so -lm
+ *     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC -I INCLUDE mine.c -o mine.so -lm
  *
- * and test it with `lore-world check ./mine.so`. docs/manual/worlds.md has the way step by step, docs/examples/pendulum
- * a complete world.
+ * where INCLUDE is the folder that has lore/world.h; test it with `lore-world check ./mine.so`. docs/manual/worlds.md
+ * has the way step by step, docs/examples/pendulum a complete world.
  *
  * WORDS. A *world* is what lore_world_v1.open makes of the settings: one task, with its constants. A *life* is one
  * evaluation of one controller in it, from the start of the world to its end. A *batch* is n lives side by side. At
@@ -37,7 +37,7 @@
  * border, change signal handlers or the floating-point environment.
  *
  * VERSIONS. The struct below, and every rule of this page, is version 1 and does not change: a later version has
- * another struct. Lore reads `version` first, refuses a version that it does not know, and reads no more of that.
+ * another struct. Lore reads `version` first, refuses one that it does not know, and then reads nothing else.
  */
 #ifndef LORE_WORLD_H
 #define LORE_WORLD_H
