@@ -173,6 +173,11 @@ def modules(source):
 def write_cpp_reference(source, pages, xml):
     """A page for each module, with a section for each header."""
     headers, names = Headers(xml), []
+    for file in sorted((source / "include" / "lore").glob("*.h")):  # in C, and written to be read as it is
+        title = f"lore/{file.name}"
+        names.append(file.stem + "_h")
+        write(pages / "reference" / "cpp" / f"{names[-1]}.rst", "\n".join(
+            [title, "=" * len(title), "", f".. literalinclude:: /include/{title}", "   :language: c", ""]))
     for module, duty in modules(source):
         files = sorted((source / "include" / "lore" / module).glob("*.h"))
         if not files:
