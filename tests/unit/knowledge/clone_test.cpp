@@ -1,4 +1,5 @@
 #include "knowledge/traces.h"
+#include "support/complaint.h"
 
 #include <lore/core/error.h>
 #include <lore/knowledge/clone.h>
@@ -56,10 +57,7 @@ KnowledgeBase hand_made(std::vector<double> values) {
 }
 
 std::string complaint(KnowledgeBase const& base, CloneConfig const& config) {
-    try {
-        clone(base, config);
-    } catch (UsageError const& error) { return error.what(); }
-    return "";
+    return test::complaint_of<UsageError>([&] { clone(base, config); });
 }
 
 }   // namespace

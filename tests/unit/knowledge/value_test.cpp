@@ -1,4 +1,5 @@
-#include <lore/core/error.h>
+#include "support/complaint.h"
+
 #include <lore/core/random.h>
 #include <lore/knowledge/derive.h>
 
@@ -33,11 +34,8 @@ KnowledgeBase two_features() {
     return KnowledgeBase{{1, 1.83f}, provenance, std::move(arrays)};
 }
 
-std::string refusal(KnowledgeBase const& base, ValueConfig const& config) {
-    try {
-        revalue(base, config);
-    } catch (UsageError const& error) { return error.what(); }
-    return "";
+std::string complaint(KnowledgeBase const& base, ValueConfig const& config) {
+    return test::complaint_of<UsageError>([&] { revalue(base, config); });
 }
 
 std::vector<double> values_of(KnowledgeBase const& base) { return {base.values().begin(), base.values().end()}; }
@@ -92,14 +90,14 @@ TEST(Revalue, finds_the_evidence_again_in_what_was_randomized_permuted_or_reduce
 TEST(Revalue, refuses_what_the_base_does_not_know) {
     KnowledgeBase const bare{{1, 1.83f}, {}, {{0}, std::vector<float>(6), {2.0}, {4.0}, {2}}};
     for (ValueRule const rule : {ValueRule::discounted_return, ValueRule::contrast, ValueRule::credit})
-        EXPECT_THAT(refusal(bare, {rule, 0.9}), HasSubstr("needs evidence that the base does not have"));
-    EXPECT_THAT(refusal(two_features(), {ValueRule::discounted_return, 0.7}), HasSubstr("gamma 0.5, 0.9, not 0.7"));
-    EXPECT_EQ(refusal(bare, {}), "");
+        EXPECT_THAT(complaint(bare, {rule, 0.9}), HasSubstr("needs evidence that the base does not have"));
+    EXPECT_THAT(complaint(two_features(), {ValueRule::discounted_return, 0.7}), HasSubstr("gamma 0.5, 0.9, not 0.7"));
+    EXPECT_EQ(complaint(bare, {}), "");
 }
 
 TEST(Revalue, refuses_a_gamma_that_does_not_discount) {
     for (double const gamma : {0.0, 1.0, -0.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
-        EXPECT_THAT(refusal(two_features(), {ValueRule::discounted_return, gamma}), HasSubstr("is no discount"));
+        EXPECT_THAT(complaint(two_features(), {ValueRule::discounted_return, gamma}), HasSubstr("is no discount"));
 }
 
 TEST(Revalue, refuses_values_that_are_no_numbers) {
@@ -107,7 +105,7 @@ TEST(Revalue, refuses_values_that_are_no_numbers) {
     arrays.evidence.gammas = {0.5};
     arrays.evidence.showings = {0};   // no file that is read has this
     arrays.evidence.return_sums = {0.0};
-    EXPECT_THAT(refusal(KnowledgeBase{{1, 1.83f}, {}, std::move(arrays)}, {ValueRule::discounted_return, 0.5}),
+    EXPECT_THAT(complaint(KnowledgeBase{{1, 1.83f}, {}, std::move(arrays)}, {ValueRule::discounted_return, 0.5}),
                 HasSubstr("nan for feature 0"));
 }
 
