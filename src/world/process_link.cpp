@@ -117,7 +117,8 @@ void ProcessLink::wait(int descriptor, short events, std::string_view moment) {
         auto const left = std::chrono::ceil<std::chrono::milliseconds>(limit_ - Clock::now()).count();
         if (left <= 0)
             give_up(fmt::format("{} does not answer {}", called_, moment),
-                    fmt::format("it was silent for {} s", patience_), "Mend it, or allow more 'patience' in [world].");
+                    fmt::format("no answer came within {} s", patience_),
+                    "Mend it, or allow more 'patience' in [world].");
         pollfd ready{descriptor, events, 0};
         int const found = ::poll(&ready, 1, static_cast<int>(std::min<long long>(left, most_milliseconds)));
         if (found > 0) return;

@@ -1,4 +1,4 @@
-"""Serves a world in Python to Lore. One file that needs numpy alone: copy it beside your world, or use PYTHONPATH.
+"""Serves a world in Python to Lore. One file that needs Python 3.11 and numpy: copy it beside your world.
 
 The configuration says ``process = ["python3", "mine.py"]`` in ``[world]``; mine.py is ::
 
@@ -158,7 +158,7 @@ class _Facts(NamedTuple):
 
 
 def _text(text: str) -> bytes:
-    data = text.encode()
+    data = text.encode(errors="replace")
     return struct.pack("<I", len(data)) + data
 
 
@@ -451,8 +451,7 @@ def _told(error: BaseException) -> str:
 
 
 def _reason(text: str) -> bytes:
-    data = text.encode()[:1000]
-    return struct.pack("<I", len(data)) + data
+    return _text(text[:500])
 
 
 class _GymnasiumLife:

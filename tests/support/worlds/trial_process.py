@@ -57,8 +57,11 @@ def facts():
         effectors = 16
         names += [(0, f"push_{i}") for i in range(15)]
     channels = b"".join(struct.pack("<I", bit) + text(word) for bit, word in names)
-    return struct.pack("<5I2f", version, 2, effectors, 1, most_lives, 2, 3) + text(name) + text("plain") + text(
-        "pushes") + channels + text(scene) + b"more" * (fault == "long_facts")
+    numbers = struct.pack("<5I2f", version, 2, effectors, 1, most_lives, 2, 3)
+    if fault == "lying_text":
+        return numbers + struct.pack("<I", 2**32 - 1) + b"trial"
+    payload = numbers + text(name) + text("plain") + text("pushes") + channels + text(scene)
+    return payload[:50] if fault == "short_facts" else payload + b"more" * (fault == "long_facts")
 
 
 class Lives:
