@@ -82,8 +82,8 @@ ExitCode work(Session const& session, CommandLine& line) {
                                  outcome.stop_reason));
         return ExitCode::interrupted;
     }
-    return print_result(fmt::format("best-of-run: individual {} with {} balls\nsignature: {}\n", text(outcome.best->id),
-                                    outcome.best->balls, outcome.signature),
+    return print_result(fmt::format("best-of-run: individual {} with {} {}\nsignature: {}\n", text(outcome.best->id),
+                                    outcome.best->reward, outcome.reward_unit, outcome.signature),
                         "The run is saved; manifest.json in its directory has the signature.");
 }
 

@@ -11,15 +11,19 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/knowledge_file.h>
-#include <lore/archive/trace_file.h>
+#include <lore/archive/world_trace.h>
+#include <lore/arena_view/record.h>
+#include <lore/arena_view/trajectory.h>
+#include <lore/collectball/replay.h>
+#include <lore/collectball/trace_file.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
-#include <lore/episode/replay.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
 #include <lore/figure/svg.h>
 #include <lore/figure/trajectory.h>
 #include <lore/knowledge/product.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,11 +48,13 @@ struct Arguments {
 struct WindowValues {
     std::vector<double> values;   ///< NaN: not found in some knowledge base
     double lowest = 0, highest = 1, not_found = -1;
-    std::string label = "value (balls)";
+    std::string label;
 };
 
-WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper> const& shapers) {
+WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper> const& shapers,
+                       std::string const& unit) {
     WindowValues found;
+    found.label = fmt::format("value ({})", unit);
     std::vector<Window> const windows = windows_of(trace, window_length);
     std::vector<FoundValues> values;
     for (Shaper const& shaper : shapers) values.push_back(values_of(shaper, windows));
@@ -64,21 +70,26 @@ WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper
         found.not_found = shapers.front().nothing_shown();
     } else {
         found.not_found = 0;
-        found.highest = 0;
-        for (double const value : found.values)
+        found.lowest = found.highest = 0;
+        for (double const value : found.values) {
             if (value > found.highest) found.highest = value;
-        if (found.highest == 0) found.highest = 1;
-        found.label = fmt::format("product of {} values (balls^{})", shapers.size(), shapers.size());
+            if (value < found.lowest) found.lowest = value;
+        }
+        if (found.highest == found.lowest) found.highest = 1;
+        found.label = fmt::format("product of {} values ({}^{})", shapers.size(), unit, shapers.size());
     }
     return found;
 }
 
-std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, KnowledgeConfig& config) {
+std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Channels const& channels,
+                                   KnowledgeConfig& config) {
     std::vector<Shaper> shapers;
     for (std::string const& path : paths) {
         KnowledgeBase base = read_knowledge_base(path);
         if (base.size() == 0)
             throw UsageError(fmt::format("cannot use {}", path), "the knowledge base is empty", "Give another one.");
+        if (std::string const why = why_misfit(base.config().channels, channels); !why.empty())
+            throw UsageError(fmt::format("cannot use {}", path), why, "Give a base of a world with these channels.");
         if (shapers.empty()) config = base.config();
         if (base.config().window_length != config.window_length)
             throw UsageError(
@@ -90,60 +101,87 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Knowle
     return shapers;
 }
 
+/// The picture but for the path itself.
+TrajectoryPicture picture_of(Arguments const& arguments, RunDirectory const& run, Birth const& birth,
+                             std::string const& unit) {
+    TrajectoryPicture picture;
+    picture.title =
+        fmt::format("{}, individual {}: {}", run.config.name, text(birth.id), reward_text(birth.reward, unit));
+    if (arguments.knowledge.empty()) return picture;
+    std::vector<std::string> names;
+    for (std::string const& path : arguments.knowledge) names.push_back(std::filesystem::path(path).stem().string());
+    picture.title += fmt::format(", colored by {}", fmt::join(names, " x "));
+    return picture;
+}
+
+void color(TrajectoryPicture& picture, WindowValues values) {
+    picture.values = std::move(values.values);
+    picture.lowest = values.lowest;
+    picture.highest = values.highest;
+    picture.not_found = values.not_found;
+    picture.value_label = values.label;
+}
+
+/// What a run's replay leaves.
+struct Drawn {
+    std::string csv, svg;
+};
+
+/// In an arena: with the robot and all that happens.
+Drawn draw_in_arena(CollectballWorld const& world, Network const& network, EpisodeConfig const& config,
+                    TrajectoryPicture const& picture) {
+    std::vector<StepRecord> const steps = record_steps(world, network, config);
+    std::vector<Pose> poses;
+    std::vector<std::uint8_t> carrying;
+    for (StepRecord const& step : steps) {
+        poses.push_back(step.pose);
+        carrying.push_back(step.sensors[static_cast<std::size_t>(Channel::carrying)] > 0.5f);
+    }
+    return {trace_csv(steps), draw_trajectory(scene_of(world.arena()), RobotPath{poses, carrying}, picture)};
+}
+
 /// 1. Simulate the individual again. 2. Look its windows up. 3. Write the trace and draw it.
 void replay_run(Arguments const& arguments) {
     RunDirectory const run = open_run(arguments.run);
     auto const birth = run.individual(arguments.individual);
+    World const& world = *run.world.world;
+    std::string const& unit = world.facts().reward_unit;
     KnowledgeConfig config = run.config.knowledge;
-    std::vector<Shaper> const shapers = read_knowledge(arguments.knowledge, config);
+    std::vector<Shaper> const shapers = read_knowledge(arguments.knowledge, Channels{world.facts()}, config);
 
     Network const network = compile(birth->genome);
-    std::vector<StepRecord> const steps = record_steps(run.arena, network, run.config.episode);
-    Trace const trace = record_episode(run.arena, network, run.config.episode);
-    if (trace.final_world.collected != birth->balls)
-        throw Error(fmt::format("individual {} does not repeat", text(birth->id)),
-                    fmt::format("{} balls now, {} in its archive", trace.final_world.collected, birth->balls),
-                    "Replay it with the version of Lore and the arena file that the run was made with.");
+    Trace const trace = record_episode(world, network, run.config.episode);
+    if (trace.reward != birth->reward)
+        throw Error(
+            fmt::format("individual {} does not repeat", text(birth->id)),
+            fmt::format("{} now, {} in its archive", reward_text(trace.reward, unit), reward_text(birth->reward, unit)),
+            "Replay it with the version of Lore and the world that the run was made with.");
 
-    TrajectoryPicture picture;
-    picture.title = fmt::format("{}, individual {}: {} ball{}", run.config.name, text(birth->id), birth->balls,
-                                birth->balls == 1 ? "" : "s");
-    picture.poses = trace.poses;
-    std::vector<std::uint8_t> carrying;
-    for (StepRecord const& step : steps)
-        carrying.push_back(step.sensors[static_cast<std::size_t>(Channel::carrying)] > 0.5f);
-    picture.carrying = carrying;
+    TrajectoryPicture picture = picture_of(arguments, run, *birth, unit);
     picture.window_length = config.window_length;
-    if (!shapers.empty()) {
-        WindowValues values = values_of(trace, config.window_length, shapers);
-        std::vector<std::string> names;
-        for (std::string const& path : arguments.knowledge)
-            names.push_back(std::filesystem::path(path).stem().string());
-        picture.title += fmt::format(", colored by {}", fmt::join(names, " x "));
-        picture.values = std::move(values.values);
-        picture.lowest = values.lowest;
-        picture.highest = values.highest;
-        picture.not_found = values.not_found;
-        picture.value_label = values.label;
-    }
-    std::string const svg = draw_trajectory(scene_of(run.arena), picture);
+    if (!shapers.empty()) color(picture, values_of(trace, config.window_length, shapers, unit));
+    picture.positions = trace.positions;
+    auto const arena = arena_world(run.world.world);
+    Drawn const drawn =
+        arena ? draw_in_arena(*arena, network, run.config.episode, picture)
+              : Drawn{trace_csv(world, network, run.config.episode), draw_trajectory(scene_of(world), picture)};
 
     make_directory(arguments.out);
     std::filesystem::path const out{arguments.out};
-    write_file_atomically((out / "trace.csv").string(), trace_csv(steps));
-    write_file_atomically((out / "trajectory.svg").string(), svg);
-    write_file_atomically((out / "trajectory.png").string(), render_png(svg));
+    write_file_atomically((out / "trace.csv").string(), drawn.csv);
+    write_file_atomically((out / "trajectory.svg").string(), drawn.svg);
+    write_file_atomically((out / "trajectory.png").string(), render_png(drawn.svg));
     if (arguments.quiet) return;
     auto const found =
         std::count_if(picture.values.begin(), picture.values.end(), [](double value) { return !std::isnan(value); });
-    fmt::print("individual {}: {} balls in {} steps{}\n", text(birth->id), birth->balls, steps.size(),
+    fmt::print("individual {}: {} in {} steps{}\n", text(birth->id), reward_text(birth->reward, unit), trace.steps(),
                shapers.empty() ? ""
                                : fmt::format(", {} of {} windows in the knowledge base{}", found, picture.values.size(),
                                              shapers.size() > 1 ? "s" : ""));
     fmt::print("wrote {0}/trace.csv, {0}/trajectory.svg, {0}/trajectory.png\n", arguments.out);
 }
 
-/// --actions and --follow: no run, no controller, only the world.
+/// --actions and --follow: no run, no controller, only the arena.
 void replay_file(Arguments const& arguments) {
     Arena const arena = load_arena(arguments.arena, arguments.task);
     bool const following = !arguments.follow.empty();
@@ -151,7 +189,8 @@ void replay_file(Arguments const& arguments) {
                                                     : drive(arena, read_actions_csv(arguments.actions));
     write_file_atomically(arguments.out, trace_csv(steps));
     if (!arguments.quiet)
-        fmt::print("wrote {}: {} steps, {} balls collected\n", arguments.out, steps.size(), steps.back().collected);
+        fmt::print("wrote {}: {} steps, {} collected\n", arguments.out, steps.size(),
+                   reward_text(steps.back().collected, first_reward_unit));
 }
 
 int run(int argc, char** argv) {
@@ -175,9 +214,10 @@ int run(int argc, char** argv) {
     app.add_option("--kb", arguments.knowledge,
                    "knowledge base whose values color the trajectory; several: their product")
         ->allow_extra_args(false);
-    app.add_option("--actions", arguments.actions, "CSV with the columns a0, a1, a2: drives the robot open loop");
+    app.add_option("--actions", arguments.actions,
+                   "CSV with the columns a0, a1, a2: drives the robot of an arena open loop");
     app.add_option("--follow", arguments.follow,
-                   "recorded trace (.csv or .csv.gz): repeats each row from its recorded state");
+                   "recorded trace of an arena (.csv or .csv.gz): repeats each row from its recorded state");
     app.add_option("--task", arguments.task, "task of the arena, for --actions and --follow: source or target");
     app.add_option("--arena", arguments.arena, "arena file or built-in name, for --actions and --follow")
         ->capture_default_str();
@@ -192,7 +232,7 @@ int run(int argc, char** argv) {
                          "Give one of RUN_DIR, --actions and --follow.");
     if (!arguments.run.empty()) {
         if (!arguments.task.empty() || app.count("--arena") > 0)
-            throw UsageError("cannot read the command line", "a run knows its own arena and task",
+            throw UsageError("cannot read the command line", "a run knows its own world and task",
                              "Leave --task and --arena out.");
         replay_run(arguments);
     } else {

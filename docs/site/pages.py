@@ -158,6 +158,12 @@ lore.plot
 .. automodule:: lore.plot
    :members:
    :undoc-members:
+
+lore_world
+----------
+
+.. automodule:: lore_world
+   :members:
 """)
     return "reference/python"
 

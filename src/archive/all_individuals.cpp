@@ -1,5 +1,6 @@
 #include <lore/archive/all_individuals.h>
 
+#include "boost_types.h"
 #include "genome_difference.h"
 #include "posix_file.h"
 #include "zstd_frame.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <cmath>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -62,8 +64,29 @@ Pool pool_of(std::span<Individual const> members) {
     return pool;
 }
 
-/// The file's first bytes: an empty container, so that kind and version are where every file of Lore has them.
-Bytes file_head() { return seal(FileKind::all_individuals, {}, Packing::plain); }
+/// The file's first bytes: a container with the world alone, so that kind and version are where every file of Lore has
+/// them. That of version 1 is empty.
+Bytes file_head(WorldRecord const& world) {
+    Bytes const payload = write_with_boost([&](OutArchive& archive) { put_world(archive, world); });
+    return seal(FileKind::all_individuals, payload, Packing::plain);
+}
+constexpr std::uint64_t longest_head = 1u << 20;
+
+constexpr std::uint64_t most_in_short = std::uint64_t{1} << 30;
+
+/// Whole rewards from 0 to 2^30 as one number, any other as a larger number and a double: frames of both format
+/// versions are alike, so that a file of version 1 can grow on.
+void put_reward(ByteWriter& out, double reward) {
+    bool const is_short = std::trunc(reward) == reward && reward >= 0 && reward <= static_cast<double>(most_in_short);
+    out.put_varint(is_short ? static_cast<std::uint64_t>(reward) : most_in_short + 1);
+    if (!is_short) out.put(reward);
+}
+double get_reward(ByteReader& in) {
+    std::size_t const number = in.get_count(most_in_short + 1);
+    double const reward = number > most_in_short ? in.get<double>() : static_cast<double>(number);
+    if (!std::isfinite(reward)) in.fail("a reward that no evaluation gives");
+    return reward;
+}
 
 }   // namespace
 
@@ -93,11 +116,12 @@ struct AllIndividualsWriter::State {
     }
 };
 
-AllIndividualsWriter::AllIndividualsWriter(std::string path) : state_(std::make_unique<State>()) {
+AllIndividualsWriter::AllIndividualsWriter(std::string path, WorldRecord const& world)
+    : state_(std::make_unique<State>()) {
     state_->path = std::move(path);
     state_->file = FileDescriptor{::open(state_->path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
     if (state_->file.get() < 0) throw file_error("write", state_->path, errno);
-    Bytes const head = file_head();
+    Bytes const head = file_head(world);
     write_fully(state_->file.get(), head, state_->path);
     state_->at.bytes = head.size();
 }
@@ -127,14 +151,14 @@ AllIndividualsWriter::~AllIndividualsWriter() = default;
 void AllIndividualsWriter::add(GenerationReport const& report) {
     State& state = *state_;
     ByteWriter& out = state.gathered;
-    static Genome const nothing;
     out.put_varint(static_cast<std::uint64_t>(report.generation));
     out.put_varint(report.born.size());
     for (Individual const& child : report.born) {
         Birth const& birth = *child.birth;
         std::size_t const parent = birth.parent == nullptr ? state.pool.size() : place_of(state.pool, birth.parent->id);
         out.put_varint(parent);
-        out.put_varint(static_cast<std::uint64_t>(birth.balls));
+        put_reward(out, birth.reward);
+        Genome const nothing{birth.genome.interface};
         put_difference(out, birth.parent == nullptr ? nothing : state.pool[parent].genome, birth.genome);
     }
     // Who survives, as one bit for each of the former pool and the newborn, in order of birth.
@@ -175,10 +199,16 @@ namespace {
 class FrameReader {
 public:
     explicit FrameReader(std::string const& path) : path_(path), file_(open_regular(path)), left_(file_.size) {
-        Bytes head(std::min<std::uint64_t>(left_, file_head().size()));
+        Bytes head(std::min<std::uint64_t>(left_, container_header_size));
         read(head);
-        unseal(head, FileKind::all_individuals, path);
+        std::uint64_t const length = container_length(head, path);
+        if (length > longest_head || length - head.size() > left_) fail("the file was cut inside its head");
+        head.resize(length);
+        read(std::span{head}.subspan(container_header_size));
+        Payload const payload = unseal(head, FileKind::all_individuals, path);
+        read_with_boost(payload, path, [&](InArchive& archive) { world_ = get_world(archive); });
     }
+    WorldRecord const& world() const { return world_; }
     bool at_end() const { return left_ == 0; }
     std::uint64_t bytes() const { return read_; }
     std::uint32_t generations() const { return header_.generations; }
@@ -222,6 +252,7 @@ private:
     std::uint64_t left_ = 0, read_ = 0, chain_ = 0;
     FrameHeader header_{};
     Bytes stored_;
+    WorldRecord world_;
 };
 
 /// Follows the generations of a file; the pool is all it remembers.
@@ -242,11 +273,11 @@ public:
             frames_.fail(fmt::format("the file ends with generation {}, but the run has reached {}",
                                      next_generation_ - 1, *through));
     }
-    AllIndividualsSummary summary() const { return {next_generation_, individuals_, frames_.bytes()}; }
+    AllIndividualsSummary summary() const { return {next_generation_, individuals_, frames_.bytes(), frames_.world()}; }
 
 private:
     void generation(ByteReader& in, std::function<void(ArchivedIndividual const&)> const& visit) {
-        static Genome const nothing;
+        Genome const nothing{frames_.world().interface()};
         constexpr std::size_t most_born = 1u << 20;
         if (in.get_varint() != static_cast<std::uint64_t>(next_generation_)) in.fail("a generation is missing");
         std::size_t const parents = pool_.size();
@@ -254,12 +285,12 @@ private:
         for (std::size_t slot = 0; slot < born; ++slot) {
             std::size_t const parent = in.get_count(parents);
             bool const orphan = parent == parents;
-            std::size_t const balls = in.get_count(1u << 30);
+            double const reward = get_reward(in);
             Known child{{static_cast<std::uint32_t>(next_generation_), static_cast<std::uint32_t>(slot)},
                         get_difference(in, orphan ? nothing : pool_[parent].genome)};
             pool_.push_back(std::move(child));
             visit({pool_.back().id, orphan ? std::nullopt : std::optional{pool_[parent].id}, pool_.back().genome,
-                   static_cast<int>(balls)});
+                   reward});
         }
         auto const mask = in.get_all<std::uint8_t>((pool_.size() + 7) / 8);
         std::size_t kept = 0;
@@ -292,5 +323,7 @@ AllIndividualsSummary check_all_individuals(std::string const& path) {
     replay.run(std::nullopt, [](ArchivedIndividual const&) {});
     return replay.summary();
 }
+
+WorldRecord world_of_all_individuals(std::string const& path) { return FrameReader{path}.world(); }
 
 }   // namespace lore

@@ -8,7 +8,7 @@ namespace lore {
 namespace {
 
 constexpr std::uint32_t no_parent = UINT32_MAX;
-constexpr std::size_t least_bytes_a_birth = 48;   ///< id, parent, balls, shaping, diversity, two counts
+constexpr std::size_t least_bytes_a_birth = 48;   ///< id, parent, reward of 4 bytes, shaping, diversity, two counts
 
 }   // namespace
 
@@ -21,8 +21,9 @@ void put_births(OutArchive& archive, std::vector<Birth const*> const& births) {
             parent = static_cast<std::uint32_t>(place_of(births, birth->parent->id));
             assert(parent < births.size() && "an ancestor is missing");
         }
-        std::int32_t const balls = birth->balls;
-        archive << birth->id << parent << balls << birth->shaping << birth->diversity << birth->genome;
+        archive << birth->id << parent;
+        put_reward(archive, birth->reward);
+        archive << birth->shaping << birth->diversity << birth->genome;
     }
 }
 
@@ -31,17 +32,17 @@ std::vector<std::shared_ptr<Birth const>> get_births(InArchive& archive) {
     for (std::size_t i = 0; i < births.size(); ++i) {
         auto birth = std::make_shared<Birth>();
         std::uint32_t parent = 0;
-        std::int32_t balls = 0;
-        archive >> birth->id >> parent >> balls >> birth->shaping >> birth->diversity >> birth->genome;
+        archive >> birth->id >> parent;
+        birth->reward = get_reward(archive);
+        archive >> birth->shaping >> birth->diversity >> birth->genome;
         if (parent != no_parent) {
             if (parent >= i || births[parent]->id.generation >= birth->id.generation)
                 archive.fail("an individual older than its parent");
             birth->parent = births[parent];
         }
         if (i > 0 && !(births[i - 1]->id < birth->id)) archive.fail("individuals out of the order of birth");
-        if (balls < 0 || !std::isfinite(birth->shaping) || !std::isfinite(birth->diversity))
+        if (!std::isfinite(birth->reward) || !std::isfinite(birth->shaping) || !std::isfinite(birth->diversity))
             archive.fail("a value that no evaluation gives");
-        birth->balls = balls;
         births[i] = std::move(birth);
     }
     return births;

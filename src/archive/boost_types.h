@@ -8,8 +8,10 @@
 #include "byte_stream.h"
 #include "edge_bytes.h"
 #include "field_limits.h"
+#include "version_1.h"
 
 #include <lore/archive/container.h>
+#include <lore/archive/world_record.h>
 #include <lore/core/error.h>
 #include <lore/evolution/individual.h>
 
@@ -62,26 +64,33 @@ public:
     explicit OutArchive(ByteSink& sink) : binary_oarchive(sink, boost::archive::no_header) {}
 };
 
-/// Boost's archive, and how much is left to read.
+/// Boost's archive, how much is left to read, and what the rest is: its format version and its world.
 class InArchive : public boost::archive::binary_iarchive {
 public:
-    explicit InArchive(ByteSource& source) : binary_iarchive(source, boost::archive::no_header), source_(&source) {}
+    InArchive(ByteSource& source, std::uint32_t version)
+        : binary_iarchive(source, boost::archive::no_header), source_(&source), version_(version) {}
     std::size_t left() const { return source_->left(); }
+    std::uint32_t version() const { return version_; }
+    /// Of the genomes that follow; none before a world is set.
+    Interface interface() const { return interface_; }
+    void set_world(WorldRecord const& world) { interface_ = world.interface(); }
     [[noreturn]] void fail(std::string const& reason) const { throw std::out_of_range(reason); }
     /// Boost hands our load functions its own type; every archive that Lore reads from is one of these.
     static InArchive& from(boost::archive::binary_iarchive& archive) { return static_cast<InArchive&>(archive); }
 
 private:
     ByteSource* source_;
+    std::uint32_t version_;
+    Interface interface_;
 };
 
 /// Reads `payload` by `read(archive)`; Boost's and our complaints become one Error about `name`.
 template <class Read>
-void read_with_boost(std::span<std::byte const> payload, std::string_view name, Read const& read) {
+void read_with_boost(Payload const& payload, std::string_view name, Read const& read) {
     std::string reason;
     try {
-        ByteSource source{payload};
-        InArchive archive{source};
+        ByteSource source{payload.bytes};
+        InArchive archive{source, payload.version};
         read(archive);
         if (archive.left() != 0) archive.fail("more follows than expected");
         return;
@@ -120,6 +129,36 @@ void get_blob(InArchive& archive, std::vector<T>& values, std::size_t most) {
     values.resize(static_cast<std::size_t>(count));
     if (count != 0) archive.load_binary(values.data(), values.size() * sizeof(T));
 }
+inline void put_text(boost::archive::binary_oarchive& archive, std::string_view text) {
+    put_blob(archive, std::vector<char>(text.begin(), text.end()));
+}
+inline std::string get_text(InArchive& archive, std::size_t longest) {
+    std::vector<char> text;
+    get_blob(archive, text, longest);
+    return {text.begin(), text.end()};
+}
+/// The world, with which every payload begins. One of version 1 does not, and is of the world that version 1 knows.
+inline void put_world(OutArchive& archive, WorldRecord const& world) { put_text(archive, to_json(world)); }
+inline WorldRecord get_world(InArchive& archive) {
+    constexpr std::size_t longest_record = 1u << 20;
+    WorldRecord world =
+        archive.version() == 1 ? world_of_version_1() : parse_world_record(get_text(archive, longest_record));
+    if (world.channels.count() == 0) archive.fail("its world has no channels");
+    archive.set_world(world);
+    return world;
+}
+/// A reward: a double; of version 1 an integer.
+inline void put_reward(OutArchive& archive, double reward) { archive << reward; }
+inline double get_reward(InArchive& archive) {
+    double reward = 0;
+    if (archive.version() == 1) {
+        std::int32_t whole = 0;
+        archive >> whole;
+        reward = whole;
+    } else archive >> reward;
+    return reward;
+}
+
 /// A count of things that take at least `least_bytes` each.
 inline std::size_t get_count(InArchive& archive, std::size_t least_bytes) {
     std::uint64_t count = 0;
@@ -157,9 +196,10 @@ inline void save(boost::archive::binary_oarchive& archive, lore::Genome const& g
 }
 inline void load(boost::archive::binary_iarchive& any, lore::Genome& genome, unsigned) {
     auto& archive = lore::InArchive::from(any);
+    genome.interface = archive.interface();
     std::vector<lore::EdgeBytes> edges;
     lore::get_blob(archive, edges, lore::most_edges);
-    lore::get_blob(archive, genome.biases, lore::effector_count + lore::most_hidden);
+    lore::get_blob(archive, genome.biases, genome.interface.outputs + std::size_t{lore::most_hidden});
     genome.edges.resize(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) genome.edges[i] = edges[i].edge();
     if (std::string const why = lore::why_invalid(genome); !why.empty()) archive.fail("an invalid genome: " + why);
@@ -175,6 +215,7 @@ inline void save(boost::archive::binary_oarchive& archive, lore::Descriptors con
 }
 inline void load(boost::archive::binary_iarchive& any, lore::Descriptors& descriptors, unsigned) {
     auto& archive = lore::InArchive::from(any);
+    if (archive.version() == 1) return lore::get_descriptors_of_version_1(archive, descriptors);
     lore::for_each_field(descriptors, [&](auto& field) { lore::get_field(archive, field); });
 }
 

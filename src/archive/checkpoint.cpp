@@ -18,16 +18,25 @@ constexpr std::size_t least_bytes_a_member = 48;
 
 /// What measuring distances relies on, by the kind of value.
 bool is_possible(Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; }
-bool is_possible(Point const& ball) { return std::isfinite(ball.x) && std::isfinite(ball.y); }
-bool is_possible(std::uint16_t word) { return word >> channel_count == 0; }
 bool is_possible(std::floating_point auto value) { return std::isfinite(value); }
 bool is_possible(std::integral auto) { return true; }
+/// Whole steps, in whose last word the bits above the last channel are 0.
+bool have_bits_of(Descriptors const& descriptors, int channels) {
+    std::vector<std::uint16_t> const& words = descriptors.channel_bits;
+    auto const in_a_step = static_cast<std::size_t>(descriptors.words());
+    if (words.size() % in_a_step != 0) return false;
+    int const in_last_word = channels - 16 * (descriptors.words() - 1);
+    for (std::size_t last = in_a_step - 1; last < words.size(); last += in_a_step)
+        if (words[last] >> in_last_word != 0) return false;
+    return true;
+}
 bool is_possible(std::ranges::range auto const& items) {
     return std::ranges::all_of(items, [](auto const& item) { return is_possible(item); });
 }
 
-bool is_possible(Descriptors const& descriptors) {
-    bool possible = true;
+/// Of `channels` channels.
+bool is_possible(Descriptors const& descriptors, int channels) {
+    bool possible = descriptors.channels() == channels && have_bits_of(descriptors, channels);
     for_each_field(descriptors, [&](auto const& field) { possible = possible && is_possible(field); });
     return possible;
 }
@@ -65,7 +74,7 @@ void get_shown(InArchive& archive, Population& population) {
     }
 }
 
-Population get_population(InArchive& archive) {
+Population get_population(InArchive& archive, int channels) {
     Population population;
     auto const births = get_births(archive);
     std::int32_t generation = 0;
@@ -89,10 +98,10 @@ Population get_population(InArchive& archive) {
             if (!std::isfinite(value)) archive.fail("an objective is not finite");
         member.birth = births[place];
         member.descriptors = std::move(descriptors);
-        // Distances compare ball by ball, and their sums decide which individuals survive.
-        if (member.descriptors->ball_positions.size() != population.members.front().descriptors->ball_positions.size())
-            archive.fail("members saw different numbers of balls");
-        if (!is_possible(*member.descriptors)) archive.fail("a descriptor that no evaluation gives");
+        // Distances compare number by number, and their sums decide which individuals survive.
+        if (member.descriptors->outcome.size() != population.members.front().descriptors->outcome.size())
+            archive.fail("members have outcomes of different lengths");
+        if (!is_possible(*member.descriptors, channels)) archive.fail("a descriptor that no evaluation gives");
         member.objectives.count = objectives;
     }
     get_shown(archive, population);
@@ -103,6 +112,7 @@ Population get_population(InArchive& archive) {
 
 Bytes pack_checkpoint(Checkpoint const& checkpoint) {
     return write_with_boost([&](OutArchive& archive) {
+        put_world(archive, checkpoint.world);
         std::uint64_t const signature = checkpoint.state.signature.value();
         archive << checkpoint.seed << checkpoint.config_digest << checkpoint.evaluations << checkpoint.steps
                 << checkpoint.seconds << checkpoint.progress_bytes << signature;
@@ -113,9 +123,10 @@ Bytes pack_checkpoint(Checkpoint const& checkpoint) {
     });
 }
 
-Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_view name) {
+Checkpoint unpack_checkpoint(Payload const& payload, std::string_view name) {
     Checkpoint checkpoint;
     read_with_boost(payload, name, [&](InArchive& archive) {
+        checkpoint.world = get_world(archive);
         std::uint64_t signature = 0;
         archive >> checkpoint.seed >> checkpoint.config_digest >> checkpoint.evaluations >> checkpoint.steps >>
             checkpoint.seconds >> checkpoint.progress_bytes >> signature;
@@ -123,7 +134,7 @@ Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_vie
         archive >> mark.bytes >> mark.chain >> mark.generations;
         get_blob(archive, mark.gathered, SIZE_MAX);
         checkpoint.state.signature = Signature{signature};
-        checkpoint.state.population = get_population(archive);
+        checkpoint.state.population = get_population(archive, checkpoint.world.channels.count());
     });
     return checkpoint;
 }

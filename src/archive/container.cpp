@@ -158,9 +158,15 @@ Bytes seal(FileKind kind, std::span<std::byte const> payload, Packing packing) {
     return file;
 }
 
-Bytes unseal(std::span<std::byte const> file, FileKind expected, std::string_view name) {
+Payload unseal(std::span<std::byte const> file, FileKind expected, std::string_view name) {
     Header const header = header_of(file, name);
-    return unpack(checked_payload(file, header, expected, name), header, name);
+    return {unpack(checked_payload(file, header, expected, name), header, name), header.version};
+}
+
+std::uint64_t container_length(std::span<std::byte const> header, std::string_view name) {
+    std::uint64_t const stored = header_of(header, name).stored_length;
+    if (stored > UINT64_MAX - sizeof(Header)) refuse(name, "its header contradicts itself", renew);
+    return sizeof(Header) + stored;
 }
 
 void write_container(std::string const& path, FileKind kind, std::span<std::byte const> payload, Packing packing) {
@@ -179,12 +185,12 @@ void write_plain_container(std::string const& path, FileKind kind, BytePieces pa
     write_file_atomically(path, file);
 }
 
-Bytes read_container(std::string const& path, FileKind expected) { return unseal(read_file(path), expected, path); }
+Payload read_container(std::string const& path, FileKind expected) { return unseal(read_file(path), expected, path); }
 
 MappedPayload map_container(std::string const& path, FileKind expected) {
     InputFile const file = open_input(path);
     if (!file.regular) {   // a pipe cannot be mapped
-        auto const raw = std::make_shared<Bytes const>(unseal(read_bytes(file), expected, path));
+        auto const raw = std::make_shared<Bytes const>(unseal(read_bytes(file), expected, path).bytes);
         return {*raw, raw};
     }
     auto const length = static_cast<std::size_t>(file.size);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <lore/arena/arena.h>
+#include <lore/world/channels.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +12,8 @@ namespace lore {
 template <class T>
 inline constexpr std::size_t most_items = SIZE_MAX;
 template <>
-inline constexpr std::size_t most_items<Point> = most_balls;
+inline constexpr std::size_t most_items<float> = most_outcomes;
+template <>
+inline constexpr std::size_t most_items<double> = most_channels;   ///< entropies
 
 }   // namespace lore

@@ -107,7 +107,7 @@ Genome get_changes(ByteReader& in, Genome const& parent) {
     child.edges.resize(kept);
     for (std::size_t count = in.get_count(most_edges); count > 0; --count) child.edges.push_back(get_edge(in));
 
-    std::size_t const biases = in.get_count(effector_count + most_hidden);
+    std::size_t const biases = in.get_count(parent.interface.outputs + std::size_t{most_hidden});
     std::size_t const common = std::min(parent.biases.size(), biases);
     child.biases.resize(biases);
     get_places(common, [&](std::size_t at) { child.biases[at] = in.get<float>(); });
@@ -137,12 +137,12 @@ void put_difference(ByteWriter& out, Genome const& parent, Genome const& child) 
 }
 
 Genome get_difference(ByteReader& in, Genome const& parent) {
-    Genome child;
+    Genome child{parent.interface};
     switch (in.get<std::uint8_t>()) {
     case changed: child = get_changes(in, parent); break;
     case written_out:
         for (std::size_t count = in.get_count(most_edges); count > 0; --count) child.edges.push_back(get_edge(in));
-        child.biases = in.get_all<float>(in.get_count(effector_count + most_hidden));
+        child.biases = in.get_all<float>(in.get_count(child.interface.outputs + std::size_t{most_hidden}));
         break;
     default: in.fail("a form that is not known");
     }

@@ -13,21 +13,24 @@ constexpr std::size_t longest_reason = 65536;
 void write_genome(std::string const& path, FailedIndividual const& failed) {
     write_container(path, FileKind::genome, write_with_boost([&](OutArchive& archive) {
                         std::int32_t const rank = failed.rank;
-                        std::vector<char> const reason(failed.reason.begin(), failed.reason.end());
+                        put_world(archive, failed.world);
                         archive << failed.id << failed.genome << rank;
-                        put_blob(archive, reason);
+                        put_text(archive, failed.reason);
                     }));
 }
 
 FailedIndividual read_genome(std::string const& path) {
+    return unpack_genome(read_container(path, FileKind::genome), path);
+}
+
+FailedIndividual unpack_genome(Payload const& payload, std::string_view name) {
     FailedIndividual failed;
-    read_with_boost(read_container(path, FileKind::genome), path, [&](InArchive& archive) {
+    read_with_boost(payload, name, [&](InArchive& archive) {
+        failed.world = get_world(archive);
         std::int32_t rank = 0;
-        std::vector<char> reason;
         archive >> failed.id >> failed.genome >> rank;
-        get_blob(archive, reason, longest_reason);
         failed.rank = rank;
-        failed.reason.assign(reason.begin(), reason.end());
+        failed.reason = get_text(archive, longest_reason);
     });
     return failed;
 }

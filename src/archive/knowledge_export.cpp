@@ -40,11 +40,12 @@ void append_evidence(std::string& csv, Evidence const& evidence, std::size_t fea
 }   // namespace
 
 std::string knowledge_csv(KnowledgeBase const& base) {
+    Channels const& channels = base.config().channels;
     std::string csv = "feature,value,reward_sum,count";
     auto const steps = static_cast<std::size_t>(base.config().window_length);
     for (std::size_t step = 0; step < steps; ++step)
-        for (std::string_view const channel : channel_names)
-            fmt::format_to(std::back_inserter(csv), ",{}_{}", channel, step);
+        for (ChannelInfo const& channel : channels.all())
+            fmt::format_to(std::back_inserter(csv), ",{}_{}", channel.name, step);
     append_evidence_names(csv, base.evidence());
     csv += '\n';
     for (int feature = 0; feature < base.size(); ++feature) {
@@ -52,7 +53,8 @@ std::string knowledge_csv(KnowledgeBase const& base) {
                        base.count(feature));
         Window const window = base.window(feature);
         for (std::size_t step = 0; step < steps; ++step)
-            for (float const value : channels_at(window, step)) fmt::format_to(std::back_inserter(csv), ",{}", value);
+            for (float const value : channels_at(channels, window, step))
+                fmt::format_to(std::back_inserter(csv), ",{}", value);
         append_evidence(csv, base.evidence(), static_cast<std::size_t>(feature), static_cast<std::size_t>(base.size()));
         csv += '\n';
     }
@@ -65,14 +67,16 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
 
     auto const features = static_cast<std::size_t>(base.size());
     auto const steps = static_cast<std::size_t>(base.config().window_length);
-    std::vector<float> channels;
-    channels.reserve(features * steps * channel_count);
+    Channels const& channels = base.config().channels;
+    auto const channel_count = static_cast<std::size_t>(channels.count());
+    std::vector<float> windows;
+    windows.reserve(features * steps * channel_count);
     for (int feature = 0; feature < base.size(); ++feature)
         for (std::size_t step = 0; step < steps; ++step)
-            for (float const value : channels_at(base.window(feature), step)) channels.push_back(value);
-    std::array const shape{features, steps, static_cast<std::size_t>(channel_count)};
+            for (float const value : channels_at(channels, base.window(feature), step)) windows.push_back(value);
+    std::array const shape{features, steps, channel_count};
     std::array const one{features};
-    write_npy(file("features.npy"), channels, shape);
+    write_npy(file("features.npy"), windows, shape);
     write_npy(file("values.npy"), base.values(), one);
     write_npy(file("reward_sums.npy"), base.parts().reward_sums, one);
     write_npy(file("counts.npy"), base.parts().counts, one);
@@ -91,12 +95,35 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
         write_npy(file("successes_that_showed.npy"), evidence.successes_that_showed, one);
         write_npy(file("failures_that_showed.npy"), evidence.failures_that_showed, one);
     }
-    write_file_atomically(file("provenance.json"), provenance_json(base.provenance()) + "\n");
+    write_file_atomically(file("provenance.json"), provenance_json(base) + "\n");
 }
 
-Trace read_windows(std::string const& path, int window_length) {
+namespace {
+
+/// `values` are those of all channels at one step; where they stand is told as a reason.
+void append_step(Trace& trace, std::span<float const> values, std::string const& path, std::string const& place) {
+    Channels const& channels = trace.channels;
+    for (int const channel : channels.binary()) {
+        float const value = values[static_cast<std::size_t>(channel)];
+        if (value != 0 && value != 1)
+            throw Error(fmt::format("cannot read windows from {}", path),
+                        fmt::format("{}: {} is {}, not 0 or 1", place, channels[channel].name, value), "Correct it.");
+    }
+    auto const words = static_cast<std::size_t>(channels.words());
+    trace.channel_bits.resize(trace.channel_bits.size() + words);
+    auto const step = std::span{trace.channel_bits}.last(words);
+    put_channel_bits(channels, values, step);
+    for (std::size_t word = 0; word < words; ++word) step[word] &= binary_mask(channels, static_cast<int>(word));
+    for (int const channel : channels.continuous()) trace.values.push_back(values[static_cast<std::size_t>(channel)]);
+    trace.positions.emplace_back();
+}
+
+}   // namespace
+
+Trace read_windows(std::string const& path, KnowledgeConfig const& config) {
     NpyArray const array = read_npy(path);
-    auto const steps = static_cast<std::size_t>(window_length);
+    auto const steps = static_cast<std::size_t>(config.window_length);
+    auto const channel_count = static_cast<std::size_t>(config.channels.count());
     bool const by_step = array.shape.size() == 3 && array.shape[1] == steps && array.shape[2] == channel_count;
     bool const in_a_row = array.shape.size() == 2 && array.shape[1] == steps * channel_count;
     if (!by_step && !in_a_row)
@@ -105,22 +132,10 @@ Trace read_windows(std::string const& path, int window_length) {
                                 steps, channel_count, steps * channel_count),
                     "Reshape it to the knowledge base's window length.");
     Trace trace;
-    std::size_t const rows = array.values.size() / channel_count;
-    for (std::size_t row = 0; row < rows; ++row) {
-        float const* const channels = array.values.data() + row * channel_count;
-        std::uint16_t word = 0;
-        for (std::size_t i = 0; i < binary_channels.size(); ++i) {
-            float const value = channels[binary_channels[i]];
-            if (value != 0 && value != 1)
-                throw Error(fmt::format("cannot read windows from {}", path),
-                            fmt::format("window {}, step {}: {} is {}, not 0 or 1", row / steps, row % steps,
-                                        channel_names[static_cast<std::size_t>(binary_channels[i])], value),
-                            "Correct it.");
-            if (value == 1) word |= static_cast<std::uint16_t>(1u << i);
-        }
-        trace.channel_bits.push_back(word);
-        for (int const channel : continuous_channels) trace.values.push_back(channels[channel]);
-    }
+    trace.channels = config.channels;
+    for (std::size_t row = 0; row < array.values.size() / channel_count; ++row)
+        append_step(trace, std::span{array.values}.subspan(row * channel_count, channel_count), path,
+                    fmt::format("window {}, step {}", row / steps, row % steps));
     return trace;
 }
 

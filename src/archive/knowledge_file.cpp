@@ -1,5 +1,8 @@
 #include <lore/archive/knowledge_file.h>
 
+#include "version_1.h"
+#include "world_json.h"
+
 #include <lore/archive/container.h>
 #include <lore/archive/knowledge_export.h>
 #include <lore/core/error.h>
@@ -13,13 +16,14 @@
 #include <functional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace lore {
 
 namespace {
 
-constexpr std::uint32_t layout_version = 2;   ///< 1: without evidence beyond reward sums and counts
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t layout_version = 3;   ///< 1: without further evidence; 2: of the world of version 1
 constexpr std::uint64_t alignment = 64;
 constexpr std::uint64_t most_features = 1u << 30;   ///< a feature's number is an int
 
@@ -33,7 +37,7 @@ struct Preamble {
     float match_threshold;
     std::uint32_t binary_channels;
     std::uint32_t continuous_channels;
-    std::uint32_t gammas;   ///< how many; this and the last three of layout 2 only, 0 in layout 1
+    std::uint32_t gammas;   ///< how many; this and `evidence` are 0 in layout 1
     std::uint64_t features;
     std::uint64_t provenance_length;
     std::uint64_t evidence;
@@ -43,15 +47,19 @@ struct Preamble {
 /// How many successes and failures a contrast compares.
 struct ContrastTotals {
     std::uint64_t successes, failures;
-    std::uint32_t success_balls;
-    std::uint32_t padding;
+    double success_reward;   ///< in layout 2 a number of 32 bits and padding
 };
-static_assert(sizeof(Preamble) == alignment && container_header_size % alignment == 0);
+static_assert(sizeof(Preamble) == alignment && sizeof(ContrastTotals) == 24 && container_header_size % alignment == 0);
+
+/// 16-bit words a step, as Channels::words().
+std::uint64_t words(Preamble const& preamble) {
+    return (std::uint64_t{preamble.binary_channels} + preamble.continuous_channels + 15) / 16;
+}
 
 /// Where each array starts in the payload [bytes].
 struct Layout {
     std::uint64_t values, reward_sums, counts, windows, bits;
-    // Of layout 2, each of them only if its part of the evidence is there.
+    // Each of these only if its part of the evidence is there.
     std::uint64_t gammas, showings, return_sums, news, gain_sums, contrast, successes, failures;
     std::uint64_t provenance, end;
 
@@ -66,8 +74,8 @@ struct Layout {
         values = take(features * sizeof(double));
         reward_sums = take(features * sizeof(double));
         counts = take(features * sizeof(std::uint32_t));
-        windows = take(features * steps * continuous_count * sizeof(float));
-        bits = take(features * steps * sizeof(std::uint16_t));
+        windows = take(features * steps * preamble.continuous_channels * sizeof(float));
+        bits = take(features * steps * words(preamble) * sizeof(std::uint16_t));
         auto const take_if = [&](EvidenceFlag flag, std::uint64_t bytes) {
             return (preamble.evidence & flag) != 0 ? take(bytes) : at;
         };
@@ -84,9 +92,23 @@ struct Layout {
     }
 };
 
-Provenance provenance_of(std::string_view text) {
-    auto const json = nlohmann::json::parse(text);
+/// The key of Provenance::best_reward: it names the unit.
+std::string best_key(Provenance const& provenance) { return "best_" + provenance.reward_unit; }
+
+double real_number(Json const& json) {
+    double const number = json.get<double>();
+    if (!std::isfinite(number)) throw std::out_of_range("a number is not finite");
+    return number;
+}
+/// Whole numbers without a decimal point.
+Json number_json(double number) {
+    bool const whole = std::trunc(number) == number && std::abs(number) < 0x1p53;
+    return whole ? Json(static_cast<std::int64_t>(number)) : Json(number);
+}
+
+Provenance provenance_of(Json const& json, WorldRecord const& world) {
     Provenance provenance;
+    provenance.reward_unit = world.reward_unit;
     json.at("made_by").get_to(provenance.made_by);
     json.at("kind").get_to(provenance.kind);
     json.at("index").get_to(provenance.index);
@@ -96,7 +118,7 @@ Provenance provenance_of(std::string_view text) {
     if (json.contains("value")) json.at("value").get_to(provenance.value);
     provenance.individuals = whole_number<std::uint64_t>(json.at("individuals"));
     provenance.windows = whole_number<std::uint64_t>(json.at("windows"));
-    provenance.best_balls = whole_number<int>(json.at("best_balls"));
+    provenance.best_reward = real_number(json.at(best_key(provenance)));
     return provenance;
 }
 
@@ -141,10 +163,10 @@ Preamble checked_preamble(std::span<std::byte const> payload, std::string const&
     if ((preamble.evidence & ~std::uint64_t{returns_flag | credit_flag | contrast_flag}) != 0 ||
         preamble.gammas > most_gammas || (preamble.gammas > 0) != ((preamble.evidence & returns_flag) != 0))
         refuse(path, "its evidence is of no known kind");
-    if (preamble.binary_channels != binary_count || preamble.continuous_channels != continuous_count)
-        refuse(path,
-               fmt::format("it has {} binary and {} continuous channels, this Lore has {} and {}",
-                           preamble.binary_channels, preamble.continuous_channels, binary_count, continuous_count));
+    std::uint64_t const channels = std::uint64_t{preamble.binary_channels} + preamble.continuous_channels;
+    if (channels < 2 || channels > most_channels)
+        refuse(path, fmt::format("it has {} binary and {} continuous channels", preamble.binary_channels,
+                                 preamble.continuous_channels));
     if (preamble.window_length < 1 || preamble.window_length > std::uint32_t{longest_window})
         refuse(path, fmt::format("a window length of {} steps", preamble.window_length));
     if (!(preamble.match_threshold > 0) || !std::isfinite(preamble.match_threshold))
@@ -179,12 +201,15 @@ std::string why_invalid(Evidence const& evidence) {
 
 /// The first number outside its range, told as a reason; "" if there is none.
 std::string why_invalid(KnowledgeBase::Parts const& parts) {
+    Channels const& channels = parts.config.channels;
+    auto const in_a_step = static_cast<std::size_t>(channels.words());
+    std::vector<std::uint16_t> known;
+    for (int word = 0; word < channels.words(); ++word) known.push_back(binary_mask(channels, word));
     auto const outside = [](float value) { return !(value >= 0 && value <= 1); };   // NaN is outside too
     auto const not_finite = [](double value) { return !std::isfinite(value); };
     if (std::any_of(parts.windows.begin(), parts.windows.end(), outside)) return "a window's value is not in 0 .. 1";
-    if (std::any_of(parts.bits.begin(), parts.bits.end(),
-                    [](std::uint16_t word) { return (word & ~window_bits_mask) != 0; }))
-        return "a window has unknown channels";
+    for (std::size_t i = 0; i < parts.bits.size(); ++i)
+        if ((parts.bits[i] & ~known[i % in_a_step]) != 0) return "a window has unknown channels";
     if (std::any_of(parts.values.begin(), parts.values.end(), not_finite) ||
         std::any_of(parts.reward_sums.begin(), parts.reward_sums.end(), not_finite))
         return "a feature's value is not finite";
@@ -196,11 +221,11 @@ std::string why_invalid(KnowledgeBase::Parts const& parts) {
 Preamble preamble_of(KnowledgeBase::Parts const& parts, std::size_t provenance_length) {
     Evidence const& evidence = parts.evidence;
     Preamble preamble{};
-    preamble.layout = evidence.none() ? 1 : layout_version;
+    preamble.layout = layout_version;
     preamble.window_length = static_cast<std::uint32_t>(parts.config.window_length);
     preamble.match_threshold = parts.config.match_threshold;
-    preamble.binary_channels = binary_count;
-    preamble.continuous_channels = continuous_count;
+    preamble.binary_channels = static_cast<std::uint32_t>(parts.config.channels.binary_count());
+    preamble.continuous_channels = static_cast<std::uint32_t>(parts.config.channels.continuous_count());
     preamble.gammas = static_cast<std::uint32_t>(evidence.gammas.size());
     preamble.features = parts.values.size();
     preamble.provenance_length = provenance_length;
@@ -227,8 +252,10 @@ Evidence evidence_in(std::span<std::byte const> payload, Preamble const& preambl
     }
     if ((preamble.evidence & contrast_flag) != 0) {
         ContrastTotals const totals = view<ContrastTotals>(payload, layout.contrast, 1)[0];
-        if (totals.success_balls == 0) refuse(path, "its successes need no balls");
-        evidence.success_balls = totals.success_balls;
+        if (preamble.layout == 2)
+            evidence.success_reward = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(totals.success_reward));
+        else evidence.success_reward = totals.success_reward;
+        if (!std::isfinite(*evidence.success_reward)) refuse(path, "the reward of its successes is not finite");
         evidence.successes = totals.successes;
         evidence.failures = totals.failures;
         evidence.successes_that_showed = view<std::uint32_t>(payload, layout.successes, features);
@@ -237,29 +264,46 @@ Evidence evidence_in(std::span<std::byte const> payload, Preamble const& preambl
     return evidence;
 }
 
+Json json_of(Provenance const& provenance) {
+    Json json{{"made_by", provenance.made_by},
+              {"kind", provenance.kind},
+              {"index", provenance.index},
+              {"sources", provenance.sources},
+              {"derivation", provenance.derivation},
+              {"task", provenance.task},
+              {"individuals", provenance.individuals},
+              {"windows", provenance.windows},
+              {best_key(provenance), number_json(provenance.best_reward)}};
+    if (!provenance.value.empty()) json["value"] = provenance.value;
+    return json;
+}
+
+std::string text(Json const& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+
 }   // namespace
 
-std::string provenance_json(Provenance const& provenance) {
-    nlohmann::ordered_json json{{"made_by", provenance.made_by},
-                                {"kind", provenance.kind},
-                                {"index", provenance.index},
-                                {"sources", provenance.sources},
-                                {"derivation", provenance.derivation},
-                                {"task", provenance.task},
-                                {"individuals", provenance.individuals},
-                                {"windows", provenance.windows},
-                                {"best_balls", provenance.best_balls}};
-    if (!provenance.value.empty()) json["value"] = provenance.value;
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string provenance_json(Provenance const& provenance) { return text(json_of(provenance)); }
+
+std::string provenance_json(KnowledgeBase const& base) {
+    Json json = json_of(base.provenance());
+    json["world"] = json_of(world_record(base));
+    return text(json);
+}
+
+WorldRecord world_record(KnowledgeBase const& base) {
+    WorldRecord record;
+    record.reward_unit = base.provenance().reward_unit;
+    record.channels = base.config().channels;
+    return record;
 }
 
 void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     KnowledgeBase::Parts const& parts = base.parts();
-    std::string const provenance = provenance_json(parts.provenance);
+    std::string const provenance = provenance_json(base);
     Evidence const& evidence = parts.evidence;
     Preamble const preamble = preamble_of(parts, provenance.size());
     Layout const layout{preamble};
-    ContrastTotals const totals{evidence.successes, evidence.failures, evidence.success_balls, 0};
+    ContrastTotals const totals{evidence.successes, evidence.failures, evidence.success_reward.value_or(0)};
 
     PayloadPieces payload;
     payload.place(0, std::span<Preamble const>{&preamble, 1});
@@ -286,25 +330,47 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const& base) {
     write_plain_container(path, FileKind::knowledge_base, payload.pieces());
 }
 
+namespace {
+
+/// What the provenance says of the base and its world; layouts before 3 leave the world out.
+std::pair<Provenance, WorldRecord> origin_in(std::span<std::byte const> payload, Preamble const& preamble,
+                                             Layout const& layout, std::string const& path) {
+    auto const text = view<char>(payload, layout.provenance, preamble.provenance_length);
+    std::string reason = "its provenance cannot be understood";
+    try {
+        Json const json = Json::parse(text.begin(), text.end());
+        WorldRecord world = preamble.layout < 3 ? world_of_version_1() : world_record_of(json.at("world"));
+        return {provenance_of(json, world), std::move(world)};
+    } catch (Json::exception const&) {
+    } catch (std::out_of_range const& error) { reason = fmt::format("{}: {}", reason, error.what()); }
+    refuse(path, reason);
+}
+
+}   // namespace
+
 KnowledgeBase read_knowledge_base(std::string const& path) {
     MappedPayload const mapped = map_container(path, FileKind::knowledge_base);
     Preamble const preamble = checked_preamble(mapped.bytes, path);
     Layout const layout{preamble};
+    auto [provenance, world] = origin_in(mapped.bytes, preamble, layout, path);
+    auto const count = [](int channels) { return static_cast<std::uint32_t>(channels); };
+    if (preamble.binary_channels != count(world.channels.binary_count()) ||
+        preamble.continuous_channels != count(world.channels.continuous_count()))
+        refuse(path, fmt::format("it has {} binary and {} continuous channels, its world {} and {}",
+                                 preamble.binary_channels, preamble.continuous_channels, world.channels.binary_count(),
+                                 world.channels.continuous_count()));
     std::uint64_t const steps = preamble.features * preamble.window_length;
-    KnowledgeBase::Parts parts{{static_cast<int>(preamble.window_length), preamble.match_threshold},
-                               {},
-                               view<std::uint16_t>(mapped.bytes, layout.bits, steps),
-                               view<float>(mapped.bytes, layout.windows, steps * continuous_count),
-                               view<double>(mapped.bytes, layout.values, preamble.features),
-                               view<double>(mapped.bytes, layout.reward_sums, preamble.features),
-                               view<std::uint32_t>(mapped.bytes, layout.counts, preamble.features),
-                               mapped.keep_alive,
-                               evidence_in(mapped.bytes, preamble, layout, path)};
+    KnowledgeBase::Parts parts{
+        {static_cast<int>(preamble.window_length), preamble.match_threshold, std::move(world.channels)},
+        std::move(provenance),
+        view<std::uint16_t>(mapped.bytes, layout.bits, steps * words(preamble)),
+        view<float>(mapped.bytes, layout.windows, steps * preamble.continuous_channels),
+        view<double>(mapped.bytes, layout.values, preamble.features),
+        view<double>(mapped.bytes, layout.reward_sums, preamble.features),
+        view<std::uint32_t>(mapped.bytes, layout.counts, preamble.features),
+        mapped.keep_alive,
+        evidence_in(mapped.bytes, preamble, layout, path)};
     if (std::string const reason = why_invalid(parts); !reason.empty()) refuse(path, reason);
-    try {
-        auto const text = view<char>(mapped.bytes, layout.provenance, preamble.provenance_length);
-        parts.provenance = provenance_of({text.data(), text.size()});
-    } catch (std::exception const&) { refuse(path, "its provenance cannot be understood"); }
     return KnowledgeBase{std::move(parts)};
 }
 

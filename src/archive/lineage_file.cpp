@@ -18,21 +18,12 @@ namespace {
 
 constexpr std::size_t longest_text = 65536;
 
-void put_text(OutArchive& archive, std::string const& text) {
-    put_blob(archive, std::vector<char>(text.begin(), text.end()));
-}
-
-std::string get_text(InArchive& archive) {
-    std::vector<char> text;
-    get_blob(archive, text, longest_text);
-    return {text.begin(), text.end()};
-}
-
 }   // namespace
 
-void write_lineage(std::string const& path, Population const& population,
+void write_lineage(std::string const& path, Population const& population, WorldRecord const& world,
                    std::optional<FoundersOrigin> const& founders) {
     write_container(path, FileKind::lineage, write_with_boost([&](OutArchive& archive) {
+                        put_world(archive, world);
                         put_births(archive, ancestors_of(population.members));
                         std::int32_t const generation = population.generation;
                         IndividualId const best = best_of_run(population).id();
@@ -52,9 +43,10 @@ LineageArchive read_lineage(std::string const& path) {
     return unpack_lineage(read_container(path, FileKind::lineage), path);
 }
 
-LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name) {
+LineageArchive unpack_lineage(Payload const& payload, std::string_view name) {
     LineageArchive lineage;
     read_with_boost(payload, name, [&](InArchive& archive) {
+        lineage.world = get_world(archive);
         lineage.births = get_births(archive);
         std::int32_t generation = 0;
         archive >> generation >> lineage.best;
@@ -70,7 +62,7 @@ LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_vi
         if (archive.left() == 0) return;
         lineage.founders.emplace();
         for (std::string* text : {&lineage.founders->kind, &lineage.founders->path, &lineage.founders->checksum})
-            *text = get_text(archive);
+            *text = get_text(archive, longest_text);
     });
     return lineage;
 }

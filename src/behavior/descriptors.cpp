@@ -31,46 +31,49 @@ double entropy(std::array<std::uint32_t, bins> const& counts, int steps) {
 }
 
 ChannelHistograms histograms_of(Trace const& trace) {
-    ChannelHistograms histograms;
-    for (int step = 0; step < trace.steps(); ++step) {
-        for (int c = 0; c < binary_count; ++c) histograms.ones[c] += (trace.channel_bits[step] >> c) & 1u;
-        for (int c = 0; c < continuous_count; ++c) {
-            float const value = trace.values[static_cast<std::size_t>(step) * continuous_count + c];
-            ++histograms.continuous[c][entropy_bin(value)];
-        }
+    ChannelHistograms histograms{trace.channels};
+    std::size_t const words = static_cast<std::size_t>(trace.channels.words());
+    auto bits = trace.channel_bits.begin();
+    auto values = trace.values.begin();
+    for (int step = 0; step < trace.steps(); ++step, bits += static_cast<std::ptrdiff_t>(words)) {
+        for (std::size_t b = 0; b < histograms.ones.size(); ++b)
+            histograms.ones[b] += static_cast<std::uint32_t>(bits[static_cast<std::ptrdiff_t>(b / 16)] >> b % 16) & 1u;
+        for (auto& counts : histograms.continuous) ++counts[static_cast<std::size_t>(entropy_bin(*values++))];
     }
     return histograms;
 }
 
 }   // namespace
 
-Tile tile_of(Arena const& arena, float x, float y) {
-    float const side = std::max(arena.width, arena.height);
-    assert(x >= 0 && x < side && y >= 0 && y < side);
-    return {static_cast<std::uint8_t>(tiles_per_side * x / side), static_cast<std::uint8_t>(tiles_per_side * y / side)};
+Tile tile_of(WorldFacts const& facts, float x, float y) {
+    float const side = std::max(facts.width, facts.height);
+    assert(x >= 0 && x <= side && y >= 0 && y <= side);
+    auto const tile = [&](float place) {
+        return static_cast<std::uint8_t>(std::min(static_cast<int>(tiles_per_side * place / side), tiles_per_side - 1));
+    };
+    return {tile(x), tile(y)};
 }
 
-std::array<double, channel_count> entropies(ChannelHistograms const& histograms, int steps) {
-    std::array<double, channel_count> result{};
+std::vector<double> entropies(Channels const& channels, ChannelHistograms const& histograms, int steps) {
+    std::vector<double> result(static_cast<std::size_t>(channels.count()));
     if (steps == 0) return result;
-    for (int c = 0; c < continuous_count; ++c)
-        result[continuous_channels[c]] = entropy(histograms.continuous[c], steps);
-    for (int c = 0; c < binary_count; ++c) {
+    for (std::size_t c = 0; c < histograms.continuous.size(); ++c)
+        result[static_cast<std::size_t>(channels.continuous()[c])] = entropy(histograms.continuous[c], steps);
+    for (std::size_t c = 0; c < histograms.ones.size(); ++c) {
         std::uint32_t const ones = histograms.ones[c];
-        result[binary_channels[c]] = entropy<2>({static_cast<std::uint32_t>(steps) - ones, ones}, steps);
+        result[static_cast<std::size_t>(channels.binary()[c])] =
+            entropy<2>({static_cast<std::uint32_t>(steps) - ones, ones}, steps);
     }
     return result;
 }
 
-Descriptors describe(Arena const& arena, Trace const& trace) {
+Descriptors describe(WorldFacts const& facts, Trace const& trace) {
     Descriptors d;
-    auto const& released = trace.final_world.released;
-    d.ball_positions.assign(released.begin(),
-                            released.begin() + static_cast<std::ptrdiff_t>(arena.task.ball_positions.size()));
+    d.outcome = trace.outcome;
     d.channel_bits = trace.channel_bits;
-    for (int step = 0; step < trace.steps(); step += steps_per_tile_sample)
-        d.path.push_back(tile_of(arena, trace.poses[step].x, trace.poses[step].y));
-    d.entropies = entropies(histograms_of(trace), trace.steps());
+    for (std::size_t step = 0; step < trace.positions.size(); step += steps_per_tile_sample)
+        d.path.push_back(tile_of(facts, trace.positions[step].x, trace.positions[step].y));
+    d.entropies = entropies(trace.channels, histograms_of(trace), trace.steps());
     return d;
 }
 

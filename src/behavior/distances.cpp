@@ -19,25 +19,25 @@ int substitution_cost(Tile a, Tile b) { return std::abs(a.x - b.x) + std::abs(a.
 }   // namespace
 
 double adhoc_distance(Descriptors const& a, Descriptors const& b) {
-    assert(a.ball_positions.size() == b.ball_positions.size());
+    assert(a.outcome.size() == b.outcome.size());
     double sum = 0;
-    for (std::size_t ball = 0; ball < a.ball_positions.size(); ++ball) {
-        double const dx = static_cast<double>(a.ball_positions[ball].x) - b.ball_positions[ball].x;
-        double const dy = static_cast<double>(a.ball_positions[ball].y) - b.ball_positions[ball].y;
-        sum += dx * dx;
-        sum += dy * dy;
+    for (std::size_t i = 0; i < a.outcome.size(); ++i) {
+        double const difference = static_cast<double>(a.outcome[i]) - static_cast<double>(b.outcome[i]);
+        sum += difference * difference;
     }
     return std::sqrt(sum);
 }
 
 double hamming_distance(Descriptors const& a, Descriptors const& b) {
-    std::size_t const shorter = std::min(a.channel_bits.size(), b.channel_bits.size());
-    std::size_t const longer = std::max(a.channel_bits.size(), b.channel_bits.size());
+    assert(a.channels() == b.channels());
+    std::size_t const bits_per_step = static_cast<std::size_t>(a.channels());
+    std::size_t const shorter = static_cast<std::size_t>(std::min(a.steps(), b.steps()));
+    std::size_t const longer = static_cast<std::size_t>(std::max(a.steps(), b.steps()));
     if (longer == 0) return 0;
     std::size_t differing = (longer - shorter) * bits_per_step;
-    for (std::size_t step = 0; step < shorter; ++step)
+    for (std::size_t word = 0; word < shorter * static_cast<std::size_t>(a.words()); ++word)
         differing +=
-            static_cast<std::size_t>(std::popcount(static_cast<unsigned>(a.channel_bits[step] ^ b.channel_bits[step])));
+            static_cast<std::size_t>(std::popcount(static_cast<unsigned>(a.channel_bits[word] ^ b.channel_bits[word])));
     return static_cast<double>(differing) / static_cast<double>(longer * bits_per_step);
 }
 
@@ -63,8 +63,9 @@ double trajectory_distance(Descriptors const& a, Descriptors const& b) {
 }
 
 double entropy_distance(Descriptors const& a, Descriptors const& b) {
+    assert(a.channels() == b.channels());
     double sum = 0;
-    for (int c = 0; c < channel_count; ++c) {
+    for (std::size_t c = 0; c < a.entropies.size(); ++c) {
         double const difference = a.entropies[c] - b.entropies[c];
         sum += difference * difference;
     }

@@ -31,27 +31,31 @@ private:
     std::vector<double> columns_;   ///< [coordinate][point]
 };
 
-}   // namespace
-
-void measure_adhoc_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
-    if (first >= last) return;
-    std::size_t const ball_count = pool[0]->ball_positions.size();
-    Points points(last, static_cast<int>(2 * ball_count));
-    for (int i = 0; i < last; ++i) {
-        assert(pool[i]->ball_positions.size() == ball_count);
-        for (std::size_t ball = 0; ball < ball_count; ++ball) {
-            points.coordinate(i, static_cast<int>(2 * ball)) = pool[i]->ball_positions[ball].x;
-            points.coordinate(i, static_cast<int>(2 * ball + 1)) = pool[i]->ball_positions[ball].y;
-        }
+/// Rows [first, size) of the pool; the coordinates of a member are the numbers of the field.
+template <class Number>
+void measure_points(std::span<Descriptors const* const> pool, int first, std::vector<Number> Descriptors::*field,
+                    DistanceMatrix& matrix) {
+    std::size_t const coordinates = (pool[0]->*field).size();
+    Points points(static_cast<int>(pool.size()), static_cast<int>(coordinates));
+    for (std::size_t i = 0; i < pool.size(); ++i) {
+        std::vector<Number> const& numbers = pool[i]->*field;
+        assert(numbers.size() == coordinates);
+        for (std::size_t c = 0; c < coordinates; ++c)
+            points.coordinate(static_cast<int>(i), static_cast<int>(c)) = static_cast<double>(numbers[c]);
     }
     points.measure(first, matrix);
 }
 
+}   // namespace
+
+void measure_adhoc_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
+    if (first >= last) return;
+    measure_points(pool.first(static_cast<std::size_t>(last)), first, &Descriptors::outcome, matrix);
+}
+
 void measure_entropy_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
-    Points points(last, channel_count);
-    for (int i = 0; i < last; ++i)
-        for (int c = 0; c < channel_count; ++c) points.coordinate(i, c) = pool[i]->entropies[c];
-    points.measure(first, matrix);
+    if (first >= last) return;
+    measure_points(pool.first(static_cast<std::size_t>(last)), first, &Descriptors::entropies, matrix);
 }
 
 }   // namespace lore

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
+#include <numeric>
 
 namespace lore {
 
@@ -10,9 +12,9 @@ namespace {
 
 using Plane = std::array<std::uint64_t, words_per_plane>;
 
-/// The different planes among those of one channel and stretch of time. In a population there are few: a lamp that
-/// no robot sees, a ball that all robots carry, a child that has not yet left its parent's way. Measured on evolved
-/// populations, only 7 to 15 % of the pairs of planes are left to count.
+/// The different planes among those of one channel and stretch of time. In a population there are few: a sensor
+/// that shows nothing to anyone, an effector that all hold, a child that has not yet left its parent's way. Measured on
+/// evolved populations, only 7 to 15 % of the pairs of planes are left to count.
 class PlaneClasses {
 public:
     explicit PlaneClasses(std::size_t members) : class_of_(members), slots_(std::bit_ceil(2 * members)) {}
@@ -53,15 +55,20 @@ private:
     std::vector<int> slots_;   ///< class + 1, or 0
 };
 
+std::size_t steps_of(Descriptors const& d) { return static_cast<std::size_t>(d.steps()); }
+
 /// Counts differing bits between rows [first, size) and all members, plane by plane.
 class DifferenceCounts {
 public:
     DifferenceCounts(std::span<Descriptors const* const> pool, int first, std::size_t longest)
-        : pool_(pool), first_(static_cast<std::size_t>(first)),
+        : pool_(pool), first_(static_cast<std::size_t>(first)), channels_(pool[0]->channels()),
+          words_(static_cast<std::size_t>(pool[0]->words())),
           kernel_(kernel_for(active_isa(), LORE_KERNELS(hamming))(true)),
-          planes_(pool.size() * bits_per_step * sizeof(Plane) / sizeof(CacheLine)), classes_(pool.size()),
-          sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
-        for (std::size_t start = 0; start < longest; start += steps_per_plane) count_stretch(start);
+          planes_(pool.size() * static_cast<std::size_t>(std::min(channels_, channels_of_word)) * sizeof(Plane) /
+                  sizeof(CacheLine)),
+          classes_(pool.size()), sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
+        for (std::size_t start = 0; start < longest; start += steps_per_plane)
+            for (std::size_t word = 0; word < words_; ++word) count_stretch(start, word);
     }
 
     std::uint32_t operator()(int i, int j) const {
@@ -69,21 +76,27 @@ public:
     }
 
 private:
-    void count_stretch(std::size_t start) {
+    /// The channels of one word of every step, over the stretch of time that begins with step `start`.
+    void count_stretch(std::size_t start, std::size_t word) {
         std::size_t const members = pool_.size();
+        int const channels = std::min(channels_ - static_cast<int>(word) * channels_of_word, channels_of_word);
         Plane* const planes = reinterpret_cast<Plane*>(planes_.data());   // [channel][member]
-        for (std::size_t member = 0; member < members; ++member) {
-            std::vector<std::uint16_t> const& bits = pool_[member]->channel_bits;
-            std::size_t const lived = std::min(start, bits.size()), left = bits.size() - lived;
-            std::uint16_t const* steps = bits.data() + lived;
-            if (left < steps_per_plane) {
-                std::fill(std::copy_n(steps, left, last_steps_.begin()), last_steps_.end(), std::uint16_t{0});
-                steps = last_steps_.data();
-            }
-            kernel_.split(steps, planes[member].data(), static_cast<std::ptrdiff_t>(members * words_per_plane));
-        }
-        for (int channel = 0; channel < bits_per_step; ++channel)
+        for (std::size_t member = 0; member < members; ++member)
+            kernel_.split(words_from(*pool_[member], start, word), planes[member].data(),
+                          static_cast<std::ptrdiff_t>(members * words_per_plane), channels);
+        for (int channel = 0; channel < channels; ++channel)
             count_channel({planes + static_cast<std::size_t>(channel) * members, members});
+    }
+
+    /// That word of steps_per_plane steps, one after the other; valid until the next call.
+    std::uint16_t const* words_from(Descriptors const& member, std::size_t start, std::size_t word) {
+        std::size_t const steps = steps_of(member), lived = std::min(start, steps),
+                          left = std::min(steps - lived, std::size_t{steps_per_plane});
+        std::uint16_t const* const bits = member.channel_bits.data();
+        if (words_ == 1 && left == steps_per_plane) return bits + lived;
+        for (std::size_t step = 0; step < left; ++step) gathered_[step] = bits[(lived + step) * words_ + word];
+        std::fill(gathered_.begin() + static_cast<std::ptrdiff_t>(left), gathered_.end(), std::uint16_t{0});
+        return gathered_.data();
     }
 
     void count_channel(std::span<Plane const> planes) {
@@ -114,8 +127,10 @@ private:
 
     std::span<Descriptors const* const> pool_;
     std::size_t first_;
+    int channels_;
+    std::size_t words_;   ///< a step
     HammingKernel kernel_;
-    std::array<std::uint16_t, steps_per_plane> last_steps_{};   ///< zeros after a robot's end
+    std::array<std::uint16_t, steps_per_plane> gathered_{};   ///< zeros after an evaluation's end
     std::vector<CacheLine> planes_, others_;
     PlaneClasses classes_;
     std::vector<std::vector<std::size_t>> rows_of_;   ///< by class
@@ -125,9 +140,11 @@ private:
 
 /// Set bits before each step, and among all: a sum that every pair of evaluations of different lengths asks for.
 std::vector<std::uint32_t> ones_before(Descriptors const& d) {
-    std::vector<std::uint32_t> ones(d.channel_bits.size() + 1);
-    for (std::size_t step = 0; step < d.channel_bits.size(); ++step)
-        ones[step + 1] = ones[step] + static_cast<std::uint32_t>(std::popcount(d.channel_bits[step]));
+    std::size_t const words = static_cast<std::size_t>(d.words());
+    std::vector<std::uint32_t> ones(steps_of(d) + 1);
+    for (std::size_t i = 0; i < d.channel_bits.size(); ++i)
+        ones[i / words + 1] += static_cast<std::uint32_t>(std::popcount(d.channel_bits[i]));
+    std::partial_sum(ones.begin(), ones.end(), ones.begin());
     return ones;
 }
 
@@ -136,16 +153,19 @@ std::vector<std::uint32_t> ones_before(Descriptors const& d) {
 void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix& matrix) {
     if (first >= last) return;
     pool = pool.first(static_cast<std::size_t>(last));
-    std::size_t longest = 0;
-    for (Descriptors const* d : pool) longest = std::max(longest, d->channel_bits.size());
+    std::size_t const bits_per_step = static_cast<std::size_t>(pool[0]->channels());
+    std::vector<std::size_t> steps;
+    for (Descriptors const* d : pool) {
+        assert(d->channels() == pool[0]->channels());
+        steps.push_back(steps_of(*d));
+    }
+    std::size_t const longest = *std::max_element(steps.begin(), steps.end());
     DifferenceCounts const differences(pool, first, longest);
     std::vector<std::vector<std::uint32_t>> ones(pool.size());   // only of members that live longer than another
     for (int i = first; i < last; ++i) {
         for (int j = 0; j < i; ++j) {
-            bool const row_is_longer = pool[i]->channel_bits.size() >= pool[j]->channel_bits.size();
-            int const outliving = row_is_longer ? i : j;
-            std::size_t const length = pool[outliving]->channel_bits.size(),
-                              common = pool[row_is_longer ? j : i]->channel_bits.size();
+            int const outliving = steps[i] >= steps[j] ? i : j;
+            std::size_t const length = std::max(steps[i], steps[j]), common = std::min(steps[i], steps[j]);
             std::size_t count = differences(i, j);
             // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
             if (length != common) {

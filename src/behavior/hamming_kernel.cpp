@@ -4,7 +4,6 @@
 // that does have the instruction (most do) counts twice as fast with it.
 #include "hamming_kernel.h"
 
-#include <lore/core/channels.h>
 #include <lore/core/lanes.h>
 
 namespace lore::LORE_ISA_NAMESPACE {
@@ -92,7 +91,9 @@ differing_by_instruction(std::uint64_t const* plane, std::uint64_t const* others
 }
 #endif
 
-void split(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride) {
+/// A template, so that the rows stay in registers and none is finished for nothing.
+template <int channels>
+void split_channels(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride) {
     constexpr int steps = 2 * LORE_LANES;   // in a vector
     using Steps = Lanes<std::uint16_t, steps>;
     for (int piece = 0; piece < steps_per_plane / (16 * steps); ++piece) {
@@ -108,9 +109,16 @@ void split(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stri
                 rows[k] ^= swapped << j;
             }
         }
-        for (int channel = 0; channel < channel_count; ++channel)
+        for (int channel = 0; channel < channels; ++channel)
             lanes::store(planes + channel * stride + piece * (steps / 4), rows[channel]);
     }
+}
+
+template <int most>
+void split_up_to(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride, int channels) {
+    if constexpr (most > 1)
+        if (channels < most) return split_up_to<most - 1>(bits, planes, stride, channels);
+    split_channels<most>(bits, planes, stride);
 }
 
 void spread(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint32_t* terms) {
@@ -135,10 +143,10 @@ void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
 HammingKernel hamming(bool by_instruction) {
 #if defined(__AVX512F__) && LORE_LANES == 16
     if (by_instruction && __builtin_cpu_supports("avx512vpopcntdq"))
-        return {width, split, differing_by_instruction, spread, add_terms};
+        return {width, split_up_to<channels_of_word>, differing_by_instruction, spread, add_terms};
 #endif
     static_cast<void>(by_instruction);
-    return {width, split, differing, spread, add_terms};
+    return {width, split_up_to<channels_of_word>, differing, spread, add_terms};
 }
 
 }   // namespace lore::LORE_ISA_NAMESPACE

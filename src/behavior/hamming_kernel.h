@@ -11,12 +11,14 @@ namespace lore {
 /// planes made by the same instruction set.
 inline constexpr int steps_per_plane = 1024;
 inline constexpr int words_per_plane = steps_per_plane / 64;
+inline constexpr int channels_of_word = 16;   ///< a bit each
 
 /// What the Hamming distance needs of an instruction set.
 struct HammingKernel {
     int lanes;   ///< planes in a group: 64-bit words in a native vector
-    /// Turns steps_per_plane words of one bit a channel into one plane a channel, `stride` words apart.
-    void (*split)(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride);
+    /// Turns steps_per_plane words into a plane for each of their lowest `channels` bits, 1 to channels_of_word; the
+    /// planes lie `stride` 64-bit words apart.
+    void (*split)(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride, int channels);
     /// Differing bits between a plane and each of `groups` * lanes others, which lie [group][word][lane].
     void (*differing)(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts);
     /// terms[j] = counts[class_of[j]]

@@ -21,8 +21,14 @@ constexpr char rule[] =
     "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
     "level wished; ties: the lowest seed; runs that the campaign names are taken first";
 
+/// Whole numbers without a decimal point.
+nlohmann::ordered_json number(double reward) {
+    if (std::abs(reward) < 1e15 && reward == std::round(reward)) return static_cast<std::int64_t>(reward);
+    return reward;
+}
+
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
-    return {knowledge.name, knowledge.wished_balls, run.run, run.seed, run.balls};
+    return {knowledge.name, knowledge.wished_reward, run.run, run.seed, run.reward};
 }
 
 }   // namespace
@@ -49,6 +55,7 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
                    Choice const& before) {
     Choice choice;
     choice.chosen = before.chosen;
+    choice.reward_unit = before.reward_unit;
     choice.considered = finished;
     choice.without = std::move(without);
     std::vector<SourceRun> free = finished;
@@ -79,8 +86,8 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
     for (KnowledgePlan const* wish : wishes) {
         if (wish->run != 0) continue;
         auto const nearest = std::min_element(free.begin(), free.end(), [&](SourceRun const& a, SourceRun const& b) {
-            return std::tuple{std::abs(a.balls - wish->wished_balls), a.seed} <
-                   std::tuple{std::abs(b.balls - wish->wished_balls), b.seed};
+            return std::tuple{std::abs(a.reward - wish->wished_reward), a.seed} <
+                   std::tuple{std::abs(b.reward - wish->wished_reward), b.seed};
         });
         if (nearest == free.end())
             throw Error(
@@ -93,6 +100,7 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
 }
 
 void write_choice(std::string const& path, Choice const& choice) {
+    std::string const word{reward_word(choice.reward_unit)};
     nlohmann::ordered_json document;
     document["rule"] = rule;
     document["chosen"] = nlohmann::ordered_json::array();
@@ -101,11 +109,12 @@ void write_choice(std::string const& path, Choice const& choice) {
                                       {"wished", entry.wished},
                                       {"run", entry.run},
                                       {"seed", entry.seed},
-                                      {"balls", entry.balls}});
+                                      {word, number(entry.reward)}});
     document["considered"] = nlohmann::ordered_json::array();
     for (SourceRun const& run : choice.considered)
-        document["considered"].push_back({{"run", run.run}, {"seed", run.seed}, {"balls", run.balls}});
+        document["considered"].push_back({{"run", run.run}, {"seed", run.seed}, {word, number(run.reward)}});
     document["without"] = choice.without;
+    if (choice.reward_unit != first_reward_unit) document["reward_unit"] = choice.reward_unit;
     write_file_atomically(path, std::string_view{document.dump(2) + "\n"});
 }
 
@@ -113,13 +122,14 @@ Choice read_choice(std::string const& path) {
     try {
         auto const document = nlohmann::json::parse(read_text(path));
         Choice choice;
+        choice.reward_unit = document.value("reward_unit", choice.reward_unit);
+        std::string const word{reward_word(choice.reward_unit)};
         for (auto const& entry : document.at("chosen"))
             choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), whole_number<int>(entry.at("run")),
-                                     whole_number<std::uint64_t>(entry.at("seed")),
-                                     whole_number<int>(entry.at("balls"))});
+                                     whole_number<std::uint64_t>(entry.at("seed")), entry.at(word)});
         for (auto const& run : document.at("considered"))
-            choice.considered.push_back({whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")),
-                                         whole_number<int>(run.at("balls"))});
+            choice.considered.push_back(
+                {whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")), run.at(word)});
         for (auto const& run : document.at("without")) choice.without.push_back(whole_number<int>(run));
         return choice;
     } catch (std::exception const& error) {

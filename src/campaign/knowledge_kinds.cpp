@@ -6,6 +6,7 @@
 #include <lore/core/error.h>
 #include <lore/core/toml.h>
 #include <lore/experiment/config.h>
+#include <lore/world/reward_text.h>
 
 #include <algorithm>
 #include <cassert>
@@ -42,8 +43,14 @@ void read_build(TomlTable const& table, KnowledgePlan& plan) {
         plan.window_length = static_cast<int>(*steps);
 }
 
-void read_balls(TomlTable const& table, KnowledgePlan& plan) {
-    plan.wished_balls = table.required_number("balls", 0, 1e6);
+void read_counted_reward(TomlTable const& table, KnowledgePlan& plan) {
+    plan.wished_reward = table.required_number(first_reward_unit, 0, 1e6);
+    read_build(table, plan);
+}
+
+void read_reward(TomlTable const& table, KnowledgePlan& plan) {
+    plan.wished_reward =
+        table.required_number("reward", std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max());
     read_build(table, plan);
 }
 
@@ -54,11 +61,10 @@ void read_run(TomlTable const& table, KnowledgePlan& plan) {
 
 /// As lore-kb revalue takes them.
 void read_revaluation(TomlTable const& table, KnowledgePlan& plan) {
-    using Whole = std::numeric_limits<std::int64_t>;
     using Real = std::numeric_limits<double>;
     std::string const rule = table.required_string("value");
     auto const gamma = table.number("gamma", Real::lowest(), Real::max());
-    auto const success = table.integer("success", Whole::min(), Whole::max());
+    auto const success = table.number("success", Real::lowest(), Real::max());
     try {
         plan.value = value_config(rule, gamma, success);
     } catch (UsageError const& error) { table.fail("value", error.what()); }
@@ -116,7 +122,7 @@ Words revalue(KnowledgePlan const& knowledge, CommandContext const& context) {
     Words words{"revalue", context.directory.knowledge(knowledge.base), "--value", std::string{name(value.rule)}};
     if (value.rule == ValueRule::discounted_return)
         words.insert(words.end(), {"--gamma", fmt::format("{}", value.gamma)});
-    if (value.success_balls > 0) words.insert(words.end(), {"--success", std::to_string(value.success_balls)});
+    if (value.success_reward) words.insert(words.end(), {"--success", fmt::format("{}", *value.success_reward)});
     return words;
 }
 Words reduce(KnowledgePlan const& knowledge, CommandContext const& context) {
@@ -128,7 +134,8 @@ Words reduce(KnowledgePlan const& knowledge, CommandContext const& context) {
 
 constexpr KnowledgeKindRow kinds[] = {
     // key, kind, is built, base has a lineage, reads, waits for, is made by
-    {"balls", KnowledgeKind::lineage, true, false, read_balls, after_choice, build_lineage},
+    {first_reward_unit, KnowledgeKind::lineage, true, false, read_counted_reward, after_choice, build_lineage},
+    {"reward", KnowledgeKind::lineage, true, false, read_reward, after_choice, build_lineage},
     {"run", KnowledgeKind::lineage, true, false, read_run, after_choice, build_lineage},
     {"lineage_of", KnowledgeKind::same_lineage, true, true, read_build, after_choice, build_same_lineage},
     {"all_of", KnowledgeKind::all, true, true, read_build, after_archive, build_all},

@@ -25,7 +25,7 @@ struct KnowledgeKindRow {
     std::string_view key;   ///< of [[knowledge]], whose presence says that it is this kind
     KnowledgeKind kind;
     bool is_built;           ///< Algorithm 1 makes it, so that it has windows of its own; else it has its base's
-    bool base_has_lineage;   ///< the key names a knowledge base with 'balls' or 'run'
+    bool base_has_lineage;   ///< the key names a knowledge base with a wished reward or 'run'
     void (*read)(TomlTable const&, KnowledgePlan&);   ///< its keys, apart from those that all kinds have
     /// Adds the steps that this base alone needs before its own, and returns the groups that its own waits for.
     std::vector<std::string> (*prepare)(KnowledgePlan const&, std::vector<Step>&);
@@ -34,13 +34,14 @@ struct KnowledgeKindRow {
 };
 
 std::span<KnowledgeKindRow const> knowledge_kinds();
-/// Lineage has two rows, which differ in how they are read.
+/// Lineage has three rows, which differ in how they are read.
 KnowledgeKindRow const& row_of(KnowledgeKind);
 
 /// One [[knowledge]] table. Other bases that it names are not looked at. Throws UsageError.
 KnowledgePlan read_knowledge(TomlTable const&);
 
-/// The directory of the source run that a base with 'balls' or 'run' comes from; "?" for its number until it is chosen.
+/// The directory of the source run that a base with a wished reward or 'run' comes from; "?" for its number until it is
+/// chosen.
 std::string source_run_of(KnowledgePlan const& lineage, CommandContext const&);
 
 /// "knowledge/kb1" and "archive/kb1_all".

@@ -81,7 +81,7 @@ void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, Cam
         table.fail("run", fmt::format("there are only {} source runs", plan.source.runs),
                    "Name one of them, or raise their number.");
     if (kind.base_has_lineage && plan.knowledge_base(knowledge.base).kind != KnowledgeKind::lineage)
-        table.fail(kind.key, "it must name a knowledge base with 'balls' or 'run'");
+        table.fail(kind.key, "it must name a knowledge base with 'balls', 'reward' or 'run'");
 }
 
 bool has_option(KnowledgePlan const& knowledge, std::string_view option) {
@@ -115,13 +115,13 @@ void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, Cam
             table.fail("gamma", fmt::format("'{}' would need returns for more than {} gammas", from, most_gammas),
                        "Revalue by fewer.");
     }
-    if (value.success_balls == 0) return;
+    if (!value.success_reward) return;
     if (has_option(built, "--success"))
         table.fail("success", fmt::format("the options of '{}' have --success", from), "Leave one of the two out.");
-    if (built.success_balls > 0 && built.success_balls != value.success_balls)
-        table.fail("success", fmt::format("'{}' counts successes of {} balls already", from, built.success_balls),
+    if (built.success_reward && built.success_reward != value.success_reward)
+        table.fail("success", fmt::format("'{}' counts successes of {} already", from, *built.success_reward),
                    "Build another base for it.");
-    built.success_balls = value.success_balls;
+    built.success_reward = value.success_reward;
 }
 
 void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
@@ -180,11 +180,21 @@ FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
     return figures;
 }
 
+std::vector<double> read_levels(TomlTable const& table) {
+    constexpr std::size_t most_levels = 9;
+    auto levels = table.numbers("levels").value_or(std::vector<double>{});
+    if (levels.size() > most_levels) table.fail("levels", fmt::format("there are more than {}", most_levels));
+    if (!std::is_sorted(levels.begin(), levels.end(), std::less_equal<>{}))
+        table.fail("levels", "they must increase", "Sort them, each once.");
+    return levels;
+}
+
 void read_report(TomlTable const& document, CampaignPlan& plan) {
     for (Treatment const& treatment : plan.targets) plan.report_order.push_back(treatment.name);
     auto const table = document.table("report");
     if (!table) return;
     plan.report_order = read_order(*table, plan.report_order);
+    plan.levels = read_levels(*table);
     plan.figures = read_figures(*table, plan);
     table->reject_unknown();
 }

@@ -4,10 +4,14 @@
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
+#include <lore/world/reward_text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <limits>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,11 +24,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view remedy = "Remove scene.json and make it again with 'lore-campaign replay'.";
 
-/// The shortest number that reads back to the same float; a double's digits would pretend to know more.
-Json number(float value) { return std::stod(fmt::format("{}", value)); }
-Json pair(Point const& p) { return {number(p.x), number(p.y)}; }
-Json corners(Rect const& r) { return {number(r.x0), number(r.x1), number(r.y0), number(r.y1)}; }
-
 template <class Items, class Function>
 Json list(Items const& items, Function const& text) {
     Json array = Json::array();
@@ -32,47 +31,34 @@ Json list(Items const& items, Function const& text) {
     return array;
 }
 
-Json json_of(Scene const& scene) {
-    return {{"width", number(scene.width)},
-            {"height", number(scene.height)},
-            {"walls", list(scene.walls, corners)},
-            {"doors", list(scene.doors, corners)},
-            {"balls", list(scene.ball_positions, pair)},
-            {"balls_at_start", scene.balls_at_start},
-            {"basket", {number(scene.basket_center.x), number(scene.basket_center.y), number(scene.basket_radius)}},
-            {"basket_lights", list(scene.basket_lights, pair)},
-            {"switch", pair(scene.switch_position)},
-            {"robot_radius", number(scene.robot_radius)}};
-}
-
-Point point_of(Json const& json) { return {json.at(0), json.at(1)}; }
-Rect rect_of(Json const& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
+/// A float as the shortest number that reads back to the same; a double's digits would pretend to know more.
+Json number(float value) { return std::stod(fmt::format("{}", value)); }
 
 Scene read_scene(Json const& json) {
-    Scene scene;
-    scene.width = json.at("width");
-    scene.height = json.at("height");
-    for (Json const& wall : json.at("walls")) scene.walls.push_back(rect_of(wall));
-    for (Json const& door : json.at("doors")) scene.doors.push_back(rect_of(door));
-    for (Json const& ball : json.at("balls")) scene.ball_positions.push_back(point_of(ball));
-    scene.balls_at_start = json.at("balls_at_start");
-    scene.basket_center = point_of(json.at("basket"));
-    scene.basket_radius = json.at("basket").at(2);
-    for (Json const& light : json.at("basket_lights")) scene.basket_lights.push_back(point_of(light));
-    scene.switch_position = point_of(json.at("switch"));
-    scene.robot_radius = json.at("robot_radius");
-    if (!(scene.width > 0 && scene.height > 0)) throw std::invalid_argument{"an arena without extent"};
-    if (scene.basket_lights.empty()) throw std::invalid_argument{"a basket without lights"};
+    Scene scene{json.at("width"), json.at("height"), json.at("svg")};
+    if (!(scene.width > 0 && scene.height > 0)) throw std::invalid_argument{"a world without extent"};
     return scene;
 }
 
-std::string replay_text(std::vector<Replay> const& replays) {
+std::string arenas_text(std::vector<Replay> const& replays) {
     std::string text = "replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected\n";
     for (Replay const& replay : replays)
         for (std::size_t k = 0; k < replay.steps.size(); ++k) {
-            ReplayStep const& s = replay.steps[k];
+            ReplayStep const& at = replay.steps[k];
+            ArenaStep const& s = replay.arena->steps[k];
             fmt::format_to(std::back_inserter(text), "{},{},{:.2f},{:.2f},{:.3f},{:d},{:d},{:d},{},{}\n", replay.run, k,
-                           s.x, s.y, s.theta, s.carrying, s.door_open, s.switch_on, s.balls_mask, s.collected);
+                           at.x, at.y, s.theta, s.carrying, s.door_open, s.switch_on, s.balls_mask, s.collected);
+        }
+    return text;
+}
+
+std::string replay_text(std::vector<Replay> const& replays) {
+    if (all_in_arenas(replays)) return arenas_text(replays);
+    std::string text = "replay,step,x,y,reward\n";
+    for (Replay const& replay : replays)
+        for (std::size_t k = 0; k < replay.steps.size(); ++k) {
+            ReplayStep const& at = replay.steps[k];
+            fmt::format_to(std::back_inserter(text), "{},{},{},{},{:.6g}\n", replay.run, k, at.x, at.y, at.reward);
         }
     return text;
 }
@@ -81,39 +67,83 @@ std::string values_text(std::vector<PanelValues> const& panels) {
     std::string text = "figure,knowledge,window,value\n";
     for (PanelValues const& panel : panels)
         for (std::size_t w = 0; w < panel.values.size(); ++w)
-            fmt::format_to(std::back_inserter(text), "{},{},{},{:.4f}\n", panel.figure, panel.knowledge, w,
-                           panel.values[w]);
+            fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", panel.figure, panel.knowledge, w,
+                           std::isnan(panel.values[w]) ? "" : fmt::format("{:.4f}", panel.values[w]));
     return text;
+}
+
+Json json_of(Replay const& replay, bool arena) {
+    Json json{{"run", replay.run}, {"signature", replay.signature}};
+    if (arena) {
+        json["scene"] = Json::parse(to_json(replay.arena->scene));
+    } else {
+        json["reward_unit"] = replay.reward_unit;
+        json["world"] = {
+            {"width", number(replay.scene.width)}, {"height", number(replay.scene.height)}, {"svg", replay.scene.svg}};
+    }
+    return json;
+}
+
+Replay replay_of(Json const& json) {
+    Replay replay{json.at("run"), json.at("signature"), std::string{first_reward_unit}, {}, {}, {}};
+    if (json.contains("world")) {
+        replay.reward_unit = json.at("reward_unit");
+        replay.scene = read_scene(json.at("world"));
+    } else {
+        replay.arena = ArenaReplay{parse_arena_scene(json.at("scene").dump()), {}};
+        replay.scene.width = replay.arena->scene.width;
+        replay.scene.height = replay.arena->scene.height;
+    }
+    return replay;
 }
 
 /// One line a replay: small, and a difference between two files is legible.
 std::string scenes_text(Replays const& all) {
+    bool const arenas = all_in_arenas(all.replays);
     std::string text = "{\"replays\": [";
     for (Replay const& replay : all.replays)
-        text += fmt::format(
-            "{}\n{}", &replay == all.replays.data() ? "" : ",",
-            Json{{"run", replay.run}, {"signature", replay.signature}, {"scene", json_of(replay.scene)}}.dump());
+        text += fmt::format("{}\n{}", &replay == all.replays.data() ? "" : ",",
+                            json_of(replay, arenas).dump(-1, ' ', false, Json::error_handler_t::replace));
     Json const panels = list(all.panels, [](PanelValues const& panel) {
         return Json{{"figure", panel.figure}, {"knowledge", panel.knowledge}, {"checksum", panel.checksum}};
     });
     return text + fmt::format("],\n\"panels\": {}}}\n", panels.dump());
 }
 
+/// Reads the columns that an arena has besides positions.
+class ArenaColumns {
+public:
+    explicit ArenaColumns(CsvTable const& table)
+        : table_(table), theta_(table.column("theta")), carrying_(table.column("carrying")),
+          door_open_(table.column("door_open")), switch_on_(table.column("switch_on")),
+          balls_mask_(table.column("balls_mask")), collected_(table.column("collected")) {}
+
+    ArenaStep step(std::size_t r) const {
+        return {table_.number<float>(r, theta_),         table_.number(r, carrying_, 0, 1) != 0,
+                table_.number(r, door_open_, 0, 1) != 0, table_.number(r, switch_on_, 0, 1) != 0,
+                table_.number<unsigned>(r, balls_mask_), table_.number<int>(r, collected_)};
+    }
+
+private:
+    CsvTable const& table_;
+    std::size_t theta_, carrying_, door_open_, switch_on_, balls_mask_, collected_;
+};
+
 void read_steps(std::string const& path, std::vector<Replay>& replays) {
     CsvTable const table = CsvTable::read(path, remedy);
-    std::size_t const name = table.column("replay"), x = table.column("x"), y = table.column("y"),
-                      theta = table.column("theta"), carrying = table.column("carrying"),
-                      door_open = table.column("door_open"), switch_on = table.column("switch_on"),
-                      balls_mask = table.column("balls_mask"), collected = table.column("collected");
+    std::size_t const name = table.column("replay"), x = table.column("x"), y = table.column("y");
+    std::optional<ArenaColumns> arena;
+    if (all_in_arenas(replays)) arena.emplace(table);
+    std::size_t const reward = arena ? 0 : table.column("reward");
     for (std::size_t r = 0; r < table.rows(); ++r) {
         auto const replay = std::find_if(replays.begin(), replays.end(),
                                          [&](Replay const& entry) { return entry.run == table.text(r, name); });
         if (replay == replays.end())
             table.refuse(r, name, fmt::format("scene.json does not know '{}'", table.text(r, name).substr(0, 40)));
-        replay->steps.push_back({table.number<float>(r, x), table.number<float>(r, y), table.number<float>(r, theta),
-                                 table.number(r, carrying, 0, 1) != 0, table.number(r, door_open, 0, 1) != 0,
-                                 table.number(r, switch_on, 0, 1) != 0, table.number<unsigned>(r, balls_mask),
-                                 table.number<int>(r, collected)});
+        if (arena) replay->arena->steps.push_back(arena->step(r));
+        replay->steps.push_back(
+            {table.number<float>(r, x), table.number<float>(r, y),
+             arena ? static_cast<double>(replay->arena->steps.back().collected) : table.number<double>(r, reward)});
     }
     for (Replay const& replay : replays)
         if (replay.steps.empty()) table.refuse(fmt::format("it has no step of '{}'", replay.run));
@@ -128,11 +158,16 @@ void read_values(std::string const& path, std::vector<PanelValues>& panels) {
             return entry.figure == table.text(r, figure) && entry.knowledge == table.text(r, knowledge);
         });
         if (panel == panels.end()) table.refuse(r, knowledge, "scene.json does not know this panel");
-        panel->values.push_back(table.number<double>(r, value));
+        panel->values.push_back(table.text(r, value).empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                             : table.number<double>(r, value));
     }
 }
 
 }   // namespace
+
+bool all_in_arenas(std::vector<Replay> const& replays) {
+    return std::all_of(replays.begin(), replays.end(), [](Replay const& replay) { return replay.arena.has_value(); });
+}
 
 void write_replays(CampaignDirectory const& directory, Replays const& all) {
     std::error_code failed;
@@ -151,8 +186,7 @@ Replays read_scenes(CampaignDirectory const& directory) {
     if (!std::filesystem::exists(path)) return all;
     try {
         Json const document = Json::parse(read_text(path));
-        for (Json const& entry : document.at("replays"))
-            all.replays.push_back({entry.at("run"), entry.at("signature"), read_scene(entry.at("scene")), {}});
+        for (Json const& entry : document.at("replays")) all.replays.push_back(replay_of(entry));
         for (Json const& entry : document.at("panels"))
             all.panels.push_back({entry.at("figure"), entry.at("knowledge"), {}, entry.at("checksum")});
     } catch (std::exception const& error) { throw Error(fmt::format("cannot read {}", path), error.what(), remedy); }

@@ -1,6 +1,7 @@
 #include <lore/campaign/replay_step.h>
 
 #include <lore/archive/knowledge_file.h>
+#include <lore/arena_view/record.h>
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,18 +34,18 @@ std::string source_run(CampaignPlan const& plan, CampaignDirectory const& direct
     return state_of(plan, directory, step, Locks::ignored).status == StepStatus::done ? step.name : "";
 }
 
-/// The finished target run with most balls, the first in the report's order among equals; "" if there is none yet.
+/// The finished target run with most reward, the first in the report's order among equals; "" if there is none yet.
 std::string best_target_run(CampaignPlan const& plan, CampaignDirectory const& directory) {
     std::string best;
-    int most = 0;
+    double most = 0;
     for (std::string const& name : plan.report_order) {
         Treatment const& treatment = plan.treatment(name);
         for (int run = 1; run <= treatment.runs; ++run) {
             Step const step{run_step(name, run), StepKind::evolve, name, name, run, {}};
             StepState const state = state_of(plan, directory, step, Locks::ignored);
-            if (state.status != StepStatus::done || (!best.empty() && state.best_balls <= most)) continue;
+            if (state.status != StepStatus::done || (!best.empty() && state.best_reward <= most)) continue;
             best = step.name;
-            most = state.best_balls;
+            most = state.best_reward;
         }
     }
     return best;
@@ -72,15 +74,27 @@ std::string signature_of(CampaignDirectory const& directory, std::string const& 
     return read_manifest((fs::path{directory.run(run)} / run_file::manifest).string()).signature;
 }
 
-Replay replay_of(RunDirectory const& run, std::string const& step, std::string signature) {
-    Replay replay{step, std::move(signature), scene_of(run.arena), {}};
-    WorldState before = start_world(run.arena);
-    run_episode(run.arena, compile(run.individual("best")->genome), run.config.episode, [&](StepView const& view) {
-        replay.steps.push_back({view.pose.x, view.pose.y, view.pose.theta, before.carrying(), before.door_open,
-                                before.switch_lit, before.balls_mask, before.collected});
-        before = view.world;
-    });
-    return replay;
+/// The best-of-run, evaluated once more.
+struct Repeated {
+    Replay replay;
+    Trace trace;
+};
+
+Repeated repeat(RunDirectory const& run, std::string const& step, std::string signature) {
+    World const& world = *run.world.world;
+    Network const network = compile(run.individual("best")->genome);
+    Trace trace = record_episode(world, network, run.config.episode);
+    Replay replay{step, std::move(signature), world.facts().reward_unit, scene_of(world), {}, {}};
+    auto next = trace.rewards.begin();
+    double reward = 0;
+    for (int k = 0; k < trace.steps(); ++k) {
+        Position const at = trace.positions[static_cast<std::size_t>(k)];
+        replay.steps.push_back({at.x, at.y, reward});
+        for (; next != trace.rewards.end() && next->step == k; ++next) reward += next->amount;
+    }
+    if (auto const arena = arena_world(run.world.world))
+        replay.arena = arena_replay(arena->arena(), record_steps(*arena, network, run.config.episode));
+    return {std::move(replay), std::move(trace)};
 }
 
 FoundValues values_by(std::string const& knowledge, CampaignDirectory const& directory, Trace const& trace) {
@@ -89,7 +103,7 @@ FoundValues values_by(std::string const& knowledge, CampaignDirectory const& dir
 }
 
 std::vector<double> product_by(std::vector<std::string> const& factors, CampaignDirectory const& directory,
-                               Trace const& trace) {
+                               Trace const& trace, bool arenas) {
     std::vector<FoundValues> values;
     for (std::string const& name : factors) {
         values.push_back(values_by(name, directory, trace));
@@ -97,7 +111,23 @@ std::vector<double> product_by(std::vector<std::string> const& factors, Campaign
             throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
                         "Name others in [report].");
     }
-    return product_of(values);
+    std::vector<double> product = product_of(values);
+    if (arenas) return product;
+    for (FoundValues const& of_base : values)
+        for (std::size_t w = 0; w < product.size(); ++w)
+            if (!of_base[w]) product[w] = std::numeric_limits<double>::quiet_NaN();
+    return product;
+}
+
+/// As PanelValues has them.
+std::vector<double> panel_values(CampaignPlan const& plan, PanelValues const& panel, CampaignDirectory const& directory,
+                                 Trace const& trace, bool arenas) {
+    if (panel.figure == "figure6") return product_by(plan.figures.figure6, directory, trace, arenas);
+    double const not_found = arenas ? no_feature_value : std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> values;
+    for (std::optional<double> const value : values_by(panel.knowledge, directory, trace))
+        values.push_back(value.value_or(not_found));
+    return values;
 }
 
 }   // namespace
@@ -134,7 +164,7 @@ std::optional<std::string> replay_is_due(CampaignPlan const& plan, CampaignDirec
 }
 
 Replay replay_of(CampaignDirectory const& directory, std::string const& step) {
-    return replay_of(open_run(directory.run(step)), step, signature_of(directory, step));
+    return repeat(open_run(directory.run(step)), step, signature_of(directory, step)).replay;
 }
 
 void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
@@ -147,20 +177,14 @@ void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, Campa
                     "Look at 'lore-campaign status'.");
     Replays all;
     RunDirectory const run = open_run(from.run(source));
-    all.replays.push_back(replay_of(run, source, signature_of(from, source)));
+    auto [replay, trace] = repeat(run, source, signature_of(from, source));
+    all.replays.push_back(std::move(replay));
     if (std::string const target = best_target_run(plan, from); !target.empty())
         all.replays.push_back(replay_of(from, target));
 
-    Trace const trace = record_episode(run.arena, compile(run.individual("best")->genome), run.config.episode);
+    bool const arenas = all_in_arenas(all.replays);
     all.panels = panels_to_draw(plan, from);
-    for (PanelValues& panel : all.panels) {
-        if (panel.figure == "figure6") {
-            panel.values = product_by(plan.figures.figure6, from, trace);
-            continue;
-        }
-        for (std::optional<double> const value : values_by(panel.knowledge, from, trace))
-            panel.values.push_back(value.value_or(no_feature_value));
-    }
+    for (PanelValues& panel : all.panels) panel.values = panel_values(plan, panel, from, trace, arenas);
     write_replays(into, all);
 }
 

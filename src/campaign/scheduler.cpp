@@ -34,7 +34,8 @@ void Scheduler::settle_from_disk(Task& task, bool fresh) {
     if (task.is_run()) {
         task.generation = state.generation;
         task.generations = state.generations;
-        task.best_balls = state.best_balls;
+        task.best_reward = state.best_reward;
+        task.reward_unit = state.reward_unit;
         task.seconds = state.seconds;
     }
     if (state.status == StepStatus::done) {
@@ -129,20 +130,25 @@ void Scheduler::launch(Task& task) {
 void Scheduler::choose(Task& task) {
     std::vector<SourceRun> finished;
     std::vector<int> without;
+    std::string unit{first_reward_unit};
     for (Step const& step : steps_of_group_.at("source")) {
         StepState const state = state_of(plan_, directory_, step);
-        if (state.status == StepStatus::done)
-            finished.push_back({step.run, seed_of(plan_.source, step.run), state.best_balls});
-        else without.push_back(step.run);
+        if (state.status != StepStatus::done) {
+            without.push_back(step.run);
+            continue;
+        }
+        finished.push_back({step.run, seed_of(plan_.source, step.run), state.best_reward});
+        unit = state.reward_unit;
     }
     try {
         auto const before = recorded_choice(directory_);
-        Choice const choice = choose_runs(plan_, finished, without, before ? *before : Choice{});
+        Choice choice = choose_runs(plan_, finished, without, before ? *before : Choice{});
+        choice.reward_unit = unit;
         make_directory(std::filesystem::path{directory_.choice()}.parent_path().string());
         write_choice(directory_.choice(), choice);
         for (ChosenRun const& chosen : choice.chosen)
-            board_.announce(fmt::format("{} comes from source run {} (seed {}, {} balls)", chosen.knowledge, chosen.run,
-                                        chosen.seed, chosen.balls));
+            board_.announce(fmt::format("{} comes from source run {} (seed {}, {})", chosen.knowledge, chosen.run,
+                                        chosen.seed, reward_text(chosen.reward, unit)));
         task.phase = Phase::done;
     } catch (Error const& error) {
         task.phase = Phase::failed;
@@ -157,7 +163,7 @@ void Scheduler::reap() {
         if (task.is_run()) {
             RunProgress const progress = last_progress(directory_.run(task.step.name));
             task.generation = progress.generation;
-            task.best_balls = progress.best_balls;
+            task.best_reward = progress.best_reward;
             task.seconds = progress.seconds;
         }
         end_if_hanging(task);
@@ -185,8 +191,8 @@ void Scheduler::end_if_hanging(Task& task) {
 void Scheduler::judge(Task& task, ChildEnd const& end) {
     settle_from_disk(task, false);
     if (task.phase == Phase::done) {
-        board_.announce(
-            fmt::format("{} done{}", task.step.name, task.is_run() ? fmt::format(", {} balls", task.best_balls) : ""));
+        board_.announce(fmt::format("{} done{}", task.step.name,
+                                    task.is_run() ? ", " + reward_text(task.best_reward, task.reward_unit) : ""));
         return;
     }
     if (stopping_) return;   // resumed next time

@@ -45,15 +45,23 @@ std::vector<SettingDifference> other_settings(CampaignPlan const& plan, Treatmen
     return differences;
 }
 
+/// Of the run's world.
+std::string unit_of(Manifest const& manifest) {
+    std::string const& unit = manifest.world.reward_unit;
+    return unit.empty() ? std::string{first_reward_unit} : unit;
+}
+
 StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
                     Treatment const& treatment, std::optional<std::uint64_t> seed, bool taken) {
     std::string const run = directory.run(step.name);
     StepState state;
     RunProgress const progress = last_progress(run);
     state.generation = progress.generation;
-    state.best_balls = progress.best_balls;
+    state.best_reward = progress.best_reward;
     state.seconds = progress.seconds;
-    state.generations = read_config(plan.config_path(treatment), treatment.overrides).evolution.generations;
+    ExperimentConfig const planned = read_config(plan.config_path(treatment), treatment.overrides);
+    state.generations = planned.evolution.generations;
+    if (!planned.has_world()) state.reward_unit = first_reward_unit;
     auto const say = [&](StepStatus status, std::string reason) {
         state.status = status;
         state.reason = std::move(reason);
@@ -69,6 +77,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             manifest = read_manifest(in(run, run_file::manifest));
         } catch (Error const& error) { return say(StepStatus::failed, error.what()); }
     }
+    if (manifest) state.reward_unit = unit_of(*manifest);
     if (manifest && manifest->status == RunStatus::done) {
         if (seed && manifest->seed != *seed)
             return say(StepStatus::failed,
@@ -77,7 +86,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
         if (!fs::exists(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
-        return say(StepStatus::done, fmt::format("{} balls", state.best_balls));
+        return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));
     }
     if (taken) return say(StepStatus::running, where);
     if (auto const failure = read_failure(directory, step)) return say(StepStatus::failed, text(*failure));
@@ -136,7 +145,8 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         if (step.kind == StepKind::choose) {
             std::vector<std::string> words;
             for (ChosenRun const& chosen : choice->chosen)
-                words.push_back(fmt::format("{} from run {} ({} balls)", chosen.knowledge, chosen.run, chosen.balls));
+                words.push_back(fmt::format("{} from run {} ({})", chosen.knowledge, chosen.run,
+                                            reward_text(chosen.reward, choice->reward_unit)));
             state.reason = fmt::format("{}", fmt::join(words, ", "));
         }
     } else if (taken) {
@@ -192,7 +202,7 @@ void clear_failure(CampaignDirectory const& directory, Step const& step) {
 
 RunProgress last_progress(std::string const& run_directory) {
     auto const row = read_last_progress(in(run_directory, run_file::progress));
-    return row ? RunProgress{row->generation, row->best_balls, row->seconds} : RunProgress{};
+    return row ? RunProgress{row->generation, row->best_reward, row->seconds} : RunProgress{};
 }
 
 }   // namespace lore

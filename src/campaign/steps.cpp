@@ -54,7 +54,7 @@ std::vector<std::string> build_command(CommandContext const& context, Launcher c
         command.push_back("--gammas");
         for (double const gamma : knowledge.gammas) command.push_back(fmt::format("{}", gamma));
     }
-    if (knowledge.success_balls > 0) add({"--success", std::to_string(knowledge.success_balls)});
+    if (knowledge.success_reward) add({"--success", fmt::format("{}", *knowledge.success_reward)});
     add(knowledge.options);
     add({"--out", context.directory.knowledge(knowledge.name)});
     return command;

@@ -34,10 +34,11 @@ struct Task {
     int attempts = 0;      ///< failed ones of this session
     int generation = 0;    ///< last seen
     int generations = 0;   ///< that it is to reach; 0 if it is no run
-    int best_balls = 0;    ///< number collected by the best so far
-    double seconds = 0;    ///< spent on it in all sessions
-    int started_at = 0;    ///< generation at the last start: a resume that gains nothing counts as a failure
-    pid_t pid = 0;         ///< of the program at work on it; 0: none
+    double best_reward = 0;
+    std::string reward_unit;   ///< "" as long as it is not known
+    double seconds = 0;        ///< spent on it in all sessions
+    int started_at = 0;        ///< generation at the last start: a resume that gains nothing counts as a failure
+    pid_t pid = 0;             ///< of the program at work on it; 0: none
     std::optional<FileLock> lock;
     std::optional<LauncherWatch> watch;   ///< of a run of several ranks
 

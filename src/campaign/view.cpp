@@ -3,6 +3,7 @@
 #include <lore/campaign/board.h>
 #include <lore/campaign/time_left.h>
 #include <lore/core/progress.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 
@@ -21,12 +22,17 @@ double work_left(std::vector<Task> const& tasks) {
     return work_left(runs);
 }
 
+/// As wide for 1 as for other whole numbers.
+std::string best_text(Task const& task) {
+    std::string const best = reward_text(task.best_reward, task.reward_unit);
+    return fmt::format("{:<{}} ", best, reward_text(task.best_reward).size() + 1 + task.reward_unit.size());
+}
+
 std::string run_line(Task const& task) {
     double const left = task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
-    return fmt::format("  {:<22} {} {:>6}/{}  best {} {} {}", task.step.name,
+    return fmt::format("  {:<22} {} {:>6}/{}  best {}{}", task.step.name,
                        bar(static_cast<double>(task.generation) / task.generations, 20), task.generation,
-                       task.generations, task.best_balls, task.best_balls == 1 ? "ball " : "balls",
-                       left > 0 ? fmt::format(" {} left", duration_text(left)) : "");
+                       task.generations, best_text(task), left > 0 ? fmt::format(" {} left", duration_text(left)) : "");
 }
 
 }   // namespace

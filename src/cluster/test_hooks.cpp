@@ -54,8 +54,7 @@ void TestHooks::before_evaluation(Genome const& genome) {
 }
 
 void TestHooks::before_delivery(Evaluation& evaluation) {
-    if (state_ && state_->damaged_reply && state_->failed())
-        evaluation.descriptors.ball_positions.resize(most_balls + 1);
+    if (state_ && state_->damaged_reply && state_->failed()) evaluation.descriptors.outcome.resize(most_outcomes + 1);
 }
 
 }   // namespace lore

@@ -1,63 +1,57 @@
 #include <lore/episode/episode.h>
 
-#include "stillness.h"
+#include <cassert>
 
 namespace lore {
 
-namespace {
+void put_channel_bits(Channels const& channels, std::span<float const> values, std::span<std::uint16_t> words) {
+    std::fill(words.begin(), words.end(), std::uint16_t{0});
+    std::size_t bit = 0;
+    auto const put = [&](int channel) {
+        unsigned const on = values[static_cast<std::size_t>(channel)] > 0.5f;
+        words[bit / 16] = static_cast<std::uint16_t>(words[bit / 16] | on << bit % 16);
+        ++bit;
+    };
+    for (int const channel : channels.binary()) put(channel);
+    for (int const channel : channels.continuous()) put(channel);
+}
 
-/// The loop itself; `observe` is inlined, so that recording costs no call.
-template <class Observe>
-WorldState simulate(Arena const& arena, Network const& network, EpisodeConfig const& config, Observe&& observe) {
-    RobotState robot = start_robot(arena);
-    WorldState world = start_world(arena);
-    NetworkState state;
-    int still_steps = 0;
-    for (int step = 0; step < config.steps; ++step) {
-        Sensors const sensors = sense(arena, robot, world);
-        Effectors effectors;
-        tick(network, sensors, state, effectors);
-        Pose const pose = robot.pose;
-        act(arena, pose, effectors, world);
-        move(arena, effectors, world, robot);
-        observe(StepView{step, pose, sensors, effectors, world, robot});
-        if (config.stop_when_still > 0 && is_still(pose, robot.pose) && ++still_steps > config.stop_when_still) break;
+void round_binary_effectors(Channels const& channels, std::span<float> effectors) {
+    for (int e = 0; e < channels.effectors(); ++e) {
+        float& value = effectors[static_cast<std::size_t>(e)];
+        if (channels.is_binary(channels.sensors() + e)) value = value > 0.5f ? 1.0f : 0.0f;
     }
-    return world;
 }
 
-float channel_value(Sensors const& sensors, Effectors const& effectors, int channel) {
-    return channel < sensor_count ? sensors[static_cast<std::size_t>(channel)]
-                                  : effectors[static_cast<std::size_t>(channel - sensor_count)];
-}
-
-}   // namespace
-
-std::uint16_t channel_bits(Sensors const& sensors, Effectors const& effectors) {
-    auto const channel = [&](int c) { return channel_value(sensors, effectors, c); };
-    unsigned bits = 0, bit = 0;
-    for (int const c : binary_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
-    for (int const c : continuous_channels) bits |= static_cast<unsigned>(channel(c) > 0.5f) << bit++;
-    return static_cast<std::uint16_t>(bits);
-}
-
-WorldState run_episode(Arena const& arena, Network const& network, EpisodeConfig const& config,
-                       std::function<void(StepView const&)> const& observe) {
-    return simulate(arena, network, config, [&](StepView const& view) { observe(view); });
-}
-
-Trace record_episode(Arena const& arena, Network const& network, EpisodeConfig const& config) {
+Trace record_episode(World const& world, Network const& network, EpisodeConfig const& config) {
     Trace trace;
-    auto const steps = static_cast<std::size_t>(config.steps);
-    trace.channel_bits.reserve(steps);
-    trace.poses.reserve(steps);
-    trace.values.reserve(steps * continuous_count);
-    trace.final_world = simulate(arena, network, config, [&](StepView const& view) {
-        trace.channel_bits.push_back(channel_bits(view.sensors, view.effectors));
-        trace.poses.push_back(view.pose);
-        if (view.world.collected > static_cast<int>(trace.deliveries.size())) trace.deliveries.push_back(view.step);
-        for (int const c : continuous_channels) trace.values.push_back(channel_value(view.sensors, view.effectors, c));
-    });
+    trace.channels = Channels{world.facts()};
+    Channels const& channels = trace.channels;
+    assert(network.inputs == channels.sensors() && network.outputs == channels.effectors());
+    auto const steps = static_cast<std::size_t>(config.steps), words = static_cast<std::size_t>(channels.words());
+    trace.channel_bits.reserve(steps * words);
+    trace.positions.reserve(steps);
+    trace.values.reserve(steps * static_cast<std::size_t>(channels.continuous_count()));
+
+    std::vector<float> values(static_cast<std::size_t>(channels.count()));
+    auto const sensors = std::span{values}.first(static_cast<std::size_t>(channels.sensors()));
+    auto const effectors = std::span{values}.subspan(sensors.size());
+    auto const life = world.begin();
+    NetworkState state;
+    for (int step = 0; step < config.steps; ++step) {
+        trace.positions.push_back(life->sense(sensors));
+        tick(network, sensors, state, effectors);
+        round_binary_effectors(channels, effectors);
+        trace.channel_bits.resize(trace.channel_bits.size() + words);
+        put_channel_bits(channels, values, std::span{trace.channel_bits}.last(words));
+        for (int const c : channels.continuous()) trace.values.push_back(values[static_cast<std::size_t>(c)]);
+        StepResult const result = life->act(effectors);
+        if (result.reward != 0) trace.rewards.push_back({step, result.reward});
+        trace.reward += static_cast<double>(result.reward);
+        if (result.over) break;
+    }
+    trace.outcome.resize(static_cast<std::size_t>(world.facts().outcome_size));
+    life->outcome(trace.outcome);
     return trace;
 }
 

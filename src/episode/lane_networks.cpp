@@ -1,4 +1,4 @@
-#include "lane_networks.h"
+#include <lore/episode/lane_networks.h>
 
 #include <algorithm>
 #include <array>
@@ -9,24 +9,27 @@ namespace lore {
 
 namespace {
 
-constexpr int most_targets = effector_count + most_hidden;
-constexpr int most_sources = sensor_count + most_hidden;
+constexpr int most_targets = most_effectors + most_hidden;
+constexpr int most_sources = most_sensors + most_hidden;
 
 }   // namespace
 
 void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width) {
     hidden_count_ = 0;
+    int outputs = 0, sources = 0;
     std::array<std::bitset<most_sources>, most_targets> feeds;
     for (Network const* network : networks) {
         if (network == nullptr) continue;
         hidden_count_ = std::max(hidden_count_, network->hidden_count);
+        outputs = network->outputs;
+        sources = std::max(sources, network->inputs + network->hidden_count);
         for (int target = 0; target < network->target_count(); ++target)
             for (int i = network->first[static_cast<std::size_t>(target)];
                  i < network->first[static_cast<std::size_t>(target) + 1]; ++i)
                 feeds[static_cast<std::size_t>(target)].set(network->source[static_cast<std::size_t>(i)]);
     }
 
-    int const targets = effector_count + hidden_count_;
+    int const targets = outputs + hidden_count_;
     groups_.clear();
     sources_.clear();
     offsets_.clear();
@@ -34,13 +37,13 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
     int const vector_width = width / lane_vectors;
     int offset = 0;
     for (int first = 0; first < targets;) {
-        int const end = first < effector_count ? effector_count : targets;   // the outputs by themselves
+        int const end = first < outputs ? outputs : targets;   // the outputs by themselves
         int const count = std::min(neuron_group_size, end - first);
         NeuronGroup group{count, first, static_cast<int>(sources_.size()), 0};
         std::bitset<most_sources> any;
         for (int k = 0; k < count; ++k) any |= feeds[static_cast<std::size_t>(first + k)];
         entry_of.emplace_back();
-        for (int source = 0; source < most_sources; ++source) {
+        for (int source = 0; source < sources; ++source) {
             if (!any[static_cast<std::size_t>(source)]) continue;
             entry_of.back()[static_cast<std::size_t>(source)] = offset;
             sources_.push_back(source);

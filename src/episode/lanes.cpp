@@ -1,11 +1,9 @@
 #include <lore/episode/lanes.h>
 
 #include <lore/core/isa.h>
+#include <lore/episode/lane_networks.h>
 
-#include "aligned_floats.h"
-#include "lane_arena.h"
-#include "lane_networks.h"
-#include "stillness.h"
+#include "batch_kernel.h"
 
 #include <algorithm>
 #include <array>
@@ -16,213 +14,195 @@ namespace lore {
 
 namespace {
 
-static_assert(lane_slots == most_lanes);
-
-using RunSteps = void (*)(LaneWork&, int first, int last);
-
-/// The lanes, each filled by the client whenever it is idle.
-class LaneRun {
+/// A batch of lives after another, each life in a lane of its own.
+class BatchRun {
 public:
-    LaneRun(Arena const& arena, EpisodeConfig const& config, int chunk_steps, LaneClient& client)
-        : arena_(arena), config_(config), chunk_steps_(chunk_steps), client_(client), width_(lane_count()),
-          run_steps_(kernel_for(active_isa(), LORE_KERNELS(run_steps))), arena_layout_(arena) {
-        auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps_);
-        values_.assign_zeros(rows * continuous_count * columns);
-        trail_x_.assign_zeros(rows * columns);
-        trail_y_.assign_zeros(rows * columns);
-        words_.resize(rows * columns + most_lanes);
-        neurons_.assign_zeros((sensor_count + most_hidden) * columns);
+    BatchRun(World const& world, EpisodeConfig const& config, int chunk_steps, LaneClient& client)
+        : world_(world), channels_(world.facts()), steps_(config.steps), chunk_steps_(chunk_steps), client_(client),
+          width_(lane_count()), kernel_(kernel_for(active_isa(), LORE_KERNELS(batch))()),
+          continuous_(static_cast<std::size_t>(channels_.continuous_count())),
+          words_a_step_(static_cast<std::size_t>(channels_.words())) {
+        auto const columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(chunk_steps);
+        auto const sensors = static_cast<std::size_t>(channels_.sensors());
+        neurons_.assign_zeros((sensors + most_hidden) * columns);
         next_hidden_.assign_zeros(most_hidden * columns);
-        work_.arena = arena_layout_.view();
-        work_.neurons = neurons_.data();
-        work_.next_hidden = next_hidden_.data();
-        work_.values = values_.data();
-        work_.words = words_.data();
-        work_.trail_x = trail_x_.data();
-        work_.trail_y = trail_y_.data();
-        work_.owner = this;
-        work_.act = [](LaneWork& work, int lane, float collect) {
-            static_cast<LaneRun*>(work.owner)->act_plainly(lane, collect);
-        };
+        outputs_.assign_zeros(static_cast<std::size_t>(channels_.effectors()) * columns);
+        values_.assign_zeros(rows * continuous_ * columns);
+        x_.assign_zeros(rows * columns);
+        y_.assign_zeros(rows * columns);
+        words_.resize(rows * words_a_step_ * columns);
     }
 
     void run() {
-        for (int lane = 0; lane < width_; ++lane) reset(lane);
+        int const most = std::min(width_, world_.facts().max_batch);
         while (true) {
-            fill_idle_lanes();
-            if (running_ == 0) return;
-            if (networks_changed_) lay_networks();
-            auto const idle = [](Lane const& lane) { return lane.idle(); };
-            bool const one_is_enough = std::all_of(lanes_.begin() + width_ / lane_vectors, lanes_.end(), idle);
-            work_.vectors = one_is_enough ? 1 : lane_vectors;
-            run_chunk();
+            networks_.clear();
+            for (int lane = 0; lane < most; ++lane) {
+                Network const* const network = client_.next(lane);
+                if (network == nullptr) break;
+                networks_.push_back(network);
+            }
+            if (networks_.empty()) return;
+            begin();
+            while (left_ > 0) run_chunk();
         }
     }
 
 private:
-    struct Lane {
-        Network const* network = nullptr;   ///< null: idle
-        int steps_left = 0;
-        int still_steps = 0;
-        int valid = 0;   ///< rows of this chunk
-        WorldState world;
-        bool idle() const { return network == nullptr; }
-    };
-
-    void fill_idle_lanes() {
-        for (int l = 0; l < width_; ++l) {
-            Lane& lane = lanes_[static_cast<std::size_t>(l)];
-            if (!lane.idle()) continue;
-            Network const* const network = client_.next(l);
-            if (network == nullptr) return;
-            reset(l);   // the kernel moves idle lanes too
-            lane.network = network;
-            lane.steps_left = config_.steps;
-            networks_changed_ = true;
-            ++running_;
-        }
-    }
-
-    /// Idle, at the start.
-    void reset(int lane) {
-        Lane& now = lanes_[static_cast<std::size_t>(lane)];
-        now = Lane{};
-        networks_changed_ = true;
-        RobotState const robot = start_robot(arena_);
-        work_.x[lane] = robot.pose.x;
-        work_.y[lane] = robot.pose.y;
-        work_.theta[lane] = robot.pose.theta;
-        work_.bumper_right[lane] = work_.bumper_left[lane] = 0;
-        for (int h = 0; h < most_hidden; ++h) hidden(lane, h) = 0.0f;
-        now.world = start_world(arena_);
-        write_world(lane);
-    }
-
-    float& hidden(int lane, int neuron) { return work_.neurons[(sensor_count + neuron) * width_ + lane]; }
-
-    void lay_networks() {
-        std::array<Network const*, most_lanes> networks{};
-        for (std::size_t lane = 0; lane < lanes_.size(); ++lane) networks[lane] = lanes_[lane].network;
-        layout_.lay({networks.data(), static_cast<std::size_t>(width_)}, width_);
-        work_.networks = layout_.view();
-        networks_changed_ = false;
-    }
-
-    void write_world(int lane) {
-        WorldState const& world = lanes_[static_cast<std::size_t>(lane)].world;
-        work_.carrying[lane] = world.carrying() ? -1 : 0;
-        work_.door_open[lane] = world.door_open ? -1 : 0;
-        work_.switch_lit[lane] = world.switch_lit ? -1 : 0;
-        work_.balls_mask[lane] = world.balls_mask;
-        work_.switch_timer[lane] = world.switch_timer;
-    }
-
-    /// Brings the lane's world up to what the kernel keeps of it in lanes.
-    void read_world(int lane) {
-        WorldState& world = lanes_[static_cast<std::size_t>(lane)].world;
-        world.switch_lit = work_.switch_lit[lane] != 0;
-        world.switch_timer = static_cast<std::int16_t>(work_.switch_timer[lane]);
-    }
-
-    void act_plainly(int lane, float collect) {
-        read_world(lane);
-        Effectors effectors{};
-        effectors[effector_place(Channel::collect)] = collect;
-        act(arena_, {work_.x[lane], work_.y[lane], 0.0f}, effectors, lanes_[static_cast<std::size_t>(lane)].world);
-        write_world(lane);
+    /// A life for every network.
+    void begin() {
+        count_ = networks_.size();
+        left_ = static_cast<int>(count_);
+        done_ = 0;
+        lives_ = world_.begin_lives(left_);
+        layout_.lay(networks_, width_);
+        std::fill_n(neurons_.data(), neurons_.size(), 0.0f);
+        sensed_.assign(static_cast<std::size_t>(channels_.sensors()) * count_, 0);
+        acted_.assign(static_cast<std::size_t>(channels_.effectors()) * count_, 0);
+        positions_.assign(2 * count_, 0);
+        rewards_.assign(count_, 0);
+        over_.assign(count_, 0);
+        totals_.assign(count_, 0);
+        lengths_.assign(count_, steps_);
     }
 
     void run_chunk() {
-        for (Lane& lane : lanes_) lane.valid = std::min(lane.steps_left, lane.idle() ? 0 : chunk_steps_);
-        std::array<bool, most_lanes> ended{};
-        std::array<WorldState, most_lanes> final_worlds;
-        for (int row = 0; row < chunk_steps_;) {
-            int to = row < chunk_steps_ - 1 ? chunk_steps_ - 1 : chunk_steps_;   // the last step alone, see below
-            for (Lane const& lane : lanes_)
-                if (lane.valid > row) to = std::min(to, lane.valid);
-            if (config_.stop_when_still > 0) to = row + 1;
-            bool const judge_rest = to == chunk_steps_ && config_.stop_when_still == 0;
-            before_ = work_;
-            if (judge_rest) hidden_before_.assign(&hidden(0, 0), &hidden(0, work_.networks.hidden_count));
-            run_steps_(work_, row, to);
-            row = to;
-            for (int l = 0; l < width_; ++l) {
-                Lane& lane = lanes_[static_cast<std::size_t>(l)];
-                if (config_.stop_when_still > 0 && lane.valid >= row && stood_still(l))
-                    lane.valid = lane.steps_left = row;
-                if (lane.idle() || ended[static_cast<std::size_t>(l)] || lane.valid != row || lane.steps_left != row)
-                    continue;
-                ended[static_cast<std::size_t>(l)] = true;
-                read_world(l);
-                final_worlds[static_cast<std::size_t>(l)] = lane.world;
-            }
-        }
+        chunk_rewards_.clear();
+        int const rows = std::min(chunk_steps_, steps_ - done_);
+        int row = 0;
+        for (; row < rows && left_running() > 0; ++row) run_step(static_cast<std::size_t>(row));
 
         std::array<int, most_lanes> valid{};
-        for (std::size_t l = 0; l < lanes_.size(); ++l) valid[l] = lanes_[l].valid;
-        client_.see({width_, chunk_steps_, work_.values, work_.words, work_.trail_x, work_.trail_y},
+        for (std::size_t lane = 0; lane < count_; ++lane) valid[lane] = std::clamp(lengths_[lane] - done_, 0, row);
+        client_.see({width_, chunk_steps_, values_.data(), words_.data(), x_.data(), y_.data(), chunk_rewards_},
                     {valid.data(), static_cast<std::size_t>(width_)});
-        for (int l = 0; l < width_; ++l) {
-            Lane& lane = lanes_[static_cast<std::size_t>(l)];
-            if (lane.idle()) continue;
-            lane.steps_left -= lane.valid;
-            if (ended[static_cast<std::size_t>(l)]) {
-                client_.end(l, final_worlds[static_cast<std::size_t>(l)]);
-            } else if (config_.stop_when_still == 0 && at_rest(l)) {
-                client_.rest(l, lane.steps_left);
-                read_world(l);
-                client_.end(l, lane.world);
-            } else {
-                continue;
-            }
-            --running_;
-            reset(l);
+        int const before = done_;
+        done_ += row;
+        if (std::none_of(lengths_.begin(), lengths_.end(),
+                         [&](int length) { return length > before && length <= done_; }))
+            return;
+        auto const size = static_cast<std::size_t>(world_.facts().outcome_size);
+        outcomes_.resize(size * count_);
+        outcome_.resize(size);
+        lives_->outcome(outcomes_);
+        for (std::size_t lane = 0; lane < count_; ++lane) {
+            if (lengths_[lane] <= before || lengths_[lane] > done_) continue;
+            for (std::size_t i = 0; i < size; ++i) outcome_[i] = outcomes_[i * count_ + lane];
+            client_.end(static_cast<int>(lane), {totals_[lane], outcome_});
+            --left_;
         }
     }
 
-    bool stood_still(int l) {
-        Pose const was{before_.x[l], before_.y[l], before_.theta[l]}, is{work_.x[l], work_.y[l], work_.theta[l]};
-        return is_still(was, is) && ++lanes_[static_cast<std::size_t>(l)].still_steps > config_.stop_when_still;
+    int left_running() const {
+        return static_cast<int>(std::count(over_.begin(), over_.end(), static_cast<unsigned char>(0)));
     }
 
-    /// True if the last step left everything as it was that steps depend on: pose, bumpers, hidden neurons, world. All
-    /// further steps are then the same. (Any event of the rules changes one of the world's values compared here.)
-    bool at_rest(int l) const {
-        if (work_.x[l] != before_.x[l] || work_.y[l] != before_.y[l] || work_.theta[l] != before_.theta[l])
-            return false;
-        for (std::size_t i = static_cast<std::size_t>(l); i < hidden_before_.size();
-             i += static_cast<std::size_t>(width_))
-            if (work_.neurons[static_cast<std::size_t>(sensor_count * width_) + i] != hidden_before_[i]) return false;
-        return work_.bumper_right[l] == before_.bumper_right[l] && work_.bumper_left[l] == before_.bumper_left[l] &&
-               work_.carrying[l] == before_.carrying[l] && work_.door_open[l] == before_.door_open[l] &&
-               work_.balls_mask[l] == before_.balls_mask[l] && work_.switch_lit[l] == before_.switch_lit[l] &&
-               work_.switch_timer[l] == before_.switch_timer[l];
+    void run_step(std::size_t row) {
+        auto const columns = static_cast<std::size_t>(width_);
+        lives_->sense(sensed_, std::span{positions_}.first(count_), std::span{positions_}.subspan(count_));
+        spread(sensed_, channels_.sensors(), neurons_.data());
+        std::copy_n(positions_.begin(), count_, x_.data() + row * columns);
+        std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(count_), count_, y_.data() + row * columns);
+        int const vectors = count_ <= columns / lane_vectors ? 1 : lane_vectors;
+        kernel_.tick(layout_.view(), vectors, channels_.sensors(), channels_.effectors(),
+                     {neurons_.data(), next_hidden_.data()}, outputs_.data());
+        round_outputs();
+        record(row);
+        for (std::size_t e = 0; e < static_cast<std::size_t>(channels_.effectors()); ++e)
+            std::copy_n(outputs_.data() + e * columns, count_,
+                        acted_.begin() + static_cast<std::ptrdiff_t>(e * count_));
+        before_ = over_;
+        lives_->act(acted_, rewards_, over_);
+        for (std::size_t lane = 0; lane < count_; ++lane) {
+            if (before_[lane] != 0) continue;
+            totals_[lane] += static_cast<double>(rewards_[lane]);
+            if (rewards_[lane] != 0)
+                chunk_rewards_.push_back({static_cast<int>(lane), static_cast<int>(row), rewards_[lane]});
+            if (over_[lane] != 0) lengths_[lane] = done_ + static_cast<int>(row) + 1;
+        }
     }
 
-    Arena const& arena_;
-    EpisodeConfig const& config_;
-    int chunk_steps_;
+    /// Rows of `count_` values become rows of lanes.
+    void spread(std::span<float const> from, int rows, float* to) const {
+        for (std::size_t r = 0; r < static_cast<std::size_t>(rows); ++r)
+            std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(r * count_), count_,
+                        to + r * static_cast<std::size_t>(width_));
+    }
+
+    void round_outputs() {
+        auto const columns = static_cast<std::size_t>(width_);
+        for (int e = 0; e < channels_.effectors(); ++e) {
+            if (!channels_.is_binary(channels_.sensors() + e)) continue;
+            float* const output = outputs_.data() + static_cast<std::size_t>(e) * columns;
+            for (std::size_t lane = 0; lane < columns; ++lane) output[lane] = output[lane] > 0.5f ? 1.0f : 0.0f;
+        }
+    }
+
+    /// A row of the chunk: what put_channel_bits says, for all lanes.
+    void record(std::size_t row) {
+        auto const columns = static_cast<std::size_t>(width_);
+        std::uint16_t* const words = words_.data() + row * words_a_step_ * columns;
+        std::fill_n(words, words_a_step_ * columns, std::uint16_t{0});
+        std::size_t bit = 0;
+        auto const put = [&](int channel) {
+            float const* const values = row_of(channel);
+            std::uint16_t* const to = words + bit / 16 * columns;
+            for (std::size_t lane = 0; lane < columns; ++lane)
+                to[lane] = static_cast<std::uint16_t>(to[lane] | unsigned{values[lane] > 0.5f} << bit % 16);
+            ++bit;
+        };
+        for (int const channel : channels_.binary()) put(channel);
+        float* to = values_.data() + row * continuous_ * columns;
+        for (int const channel : channels_.continuous()) {
+            put(channel);
+            to = std::copy_n(row_of(channel), columns, to);
+        }
+    }
+
+    float const* row_of(int channel) const {
+        auto const columns = static_cast<std::size_t>(width_);
+        return channel < channels_.sensors()
+                   ? neurons_.data() + static_cast<std::size_t>(channel) * columns
+                   : outputs_.data() + static_cast<std::size_t>(channel - channels_.sensors()) * columns;
+    }
+
+    World const& world_;
+    Channels channels_;
+    int steps_, chunk_steps_;
     LaneClient& client_;
     int width_;
-    RunSteps run_steps_;
-    LaneArenaLayout arena_layout_;
-    LaneNetworkLayout layout_;
-    int running_ = 0;
-    bool networks_changed_ = true;
-    std::array<Lane, most_lanes> lanes_;
-    LaneWork work_{}, before_{};
-    AlignedFloats values_, trail_x_, trail_y_, neurons_, next_hidden_;
+    BatchKernel kernel_;
+    std::size_t continuous_, words_a_step_;
+    AlignedFloats neurons_, next_hidden_, outputs_, values_, x_, y_;   ///< rows of lanes
     std::vector<std::uint16_t> words_;
-    std::vector<float> hidden_before_;
+    LaneNetworkLayout layout_;
+
+    // Of the batch under way; rows of `count_` values, as Lives has them.
+    std::vector<Network const*> networks_;
+    std::unique_ptr<Lives> lives_;
+    std::size_t count_ = 0;
+    int done_ = 0;   ///< steps
+    int left_ = 0;   ///< lives that have not been told to have ended
+    std::vector<float> sensed_, acted_, positions_, rewards_, outcomes_, outcome_;
+    std::vector<unsigned char> over_, before_;
+    std::vector<double> totals_;
+    std::vector<int> lengths_;   ///< steps of each life, as far as they are known
+    std::vector<LaneReward> chunk_rewards_;
 };
 
 }   // namespace
 
 int lane_count() { return lane_vectors * lanes_of(active_isa()); }
 
-void run_in_lanes(Arena const& arena, EpisodeConfig const& config, int chunk_steps, LaneClient& client) {
+void run_in_batches(World const& world, EpisodeConfig const& config, int chunk_steps, LaneClient& client) {
     assert(chunk_steps >= 1 && config.steps >= 1);
-    LaneRun{arena, config, chunk_steps, client}.run();
+    BatchRun{world, config, chunk_steps, client}.run();
+}
+
+void run_in_lanes(World const& world, EpisodeConfig const& config, int chunk_steps, LaneClient& client) {
+    if (auto const* const in_lanes = dynamic_cast<LaneWorld const*>(&world))
+        in_lanes->run_in_lanes(config, chunk_steps, client);
+    else run_in_batches(world, config, chunk_steps, client);
 }
 
 std::vector<int> largest_first(std::span<Network const> networks) {

@@ -3,10 +3,10 @@
 namespace lore {
 
 Evaluation evaluate_plainly(EvaluationContext const& context, Genome const& genome) {
-    Trace const trace = record_episode(context.arena, compile(genome), context.episode);
+    Trace const trace = record_episode(*context.world, compile(genome), context.episode);
     Evaluation evaluation;
-    evaluation.balls = trace.final_world.collected;
-    evaluation.descriptors = describe(context.arena, trace);
+    evaluation.reward = trace.reward;
+    evaluation.descriptors = describe(context.world->facts(), trace);
     if (context.shaper) {
         Shaper::Reader reader = context.shaper->reader();
         ShapingState state;

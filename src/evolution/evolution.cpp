@@ -6,6 +6,7 @@
 #include <lore/network/network.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -56,7 +57,7 @@ std::vector<Individual> evaluate(Newborns const& born, Evaluator& evaluator, Com
     assert(evaluations.size() == born.size());
     std::vector<Individual> individuals;
     for (std::size_t k = 0; k < born.size(); ++k) {
-        born[k]->balls = evaluations[k].balls;
+        born[k]->reward = evaluations[k].reward;
         born[k]->shaping = evaluations[k].shaping;
         Individual individual;
         individual.birth = born[k];
@@ -98,7 +99,7 @@ Objectives objectives_of(Individual const& individual, EvolutionConfig const& co
         assert(std::isfinite(value));
         objectives.value[objectives.count++] = value;
     };
-    add(individual.birth->balls);
+    add(individual.birth->reward);
     if (shaping_serves) add(individual.shaping);
     else if (config.use_diversity) add(individual.diversity);
     if (config.use_shaping && config.shaping.use == ShapingUse::objective) add(individual.shaping);
@@ -145,10 +146,17 @@ Population survivors(Population const& pool, std::vector<int> const& chosen) {
     return next;
 }
 
+/// As EvolutionState::signature says.
+std::uint64_t signed_word(double reward) {
+    constexpr double beyond = 0x1p63;
+    bool const whole = std::trunc(reward) == reward && std::abs(reward) < beyond;
+    return whole ? static_cast<std::uint64_t>(static_cast<std::int64_t>(reward)) : std::bit_cast<std::uint64_t>(reward);
+}
+
 void sign(Signature& signature, Population const& population) {
     for (Individual const& member : population.members) {
         signature.add((static_cast<std::uint64_t>(member.id().generation) << 32) | member.id().slot);
-        signature.add(static_cast<std::uint64_t>(member.birth->balls));
+        signature.add(signed_word(member.birth->reward));
         for (int k = 0; k < member.objectives.count; ++k) signature.add(member.objectives.value[k]);
     }
 }
@@ -160,7 +168,7 @@ std::vector<Genome> founder_genomes(EvolutionConfig const& config, std::uint64_t
     std::vector<Genome> genomes;
     for (int slot = 0; slot < config.founders; ++slot) {
         if (slot >= inherited) {
-            genomes.push_back(founder(Stream{seed, Purpose::founder, 0, word(slot)}));
+            genomes.push_back(founder(config.interface, Stream{seed, Purpose::founder, 0, word(slot)}));
             continue;
         }
         genomes.push_back(origin[static_cast<std::size_t>(slot) % origin.size()]);
@@ -223,7 +231,7 @@ Individual const& best_of_run(Population const& population) {
     assert(!population.members.empty());
     return *std::min_element(population.members.begin(), population.members.end(),
                              [](Individual const& a, Individual const& b) {
-                                 if (a.birth->balls != b.birth->balls) return a.birth->balls > b.birth->balls;
+                                 if (a.birth->reward != b.birth->reward) return a.birth->reward > b.birth->reward;
                                  return a.id() < b.id();
                              });
 }

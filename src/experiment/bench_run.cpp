@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t bench_seed = 1;
 
-/// Small, but with everything in it: several distances, growing networks, balls collected.
+/// Small, but with everything in it: several distances, growing networks, rewards earned.
 ExperimentConfig bench_config() {
     ExperimentConfig config;
     config.evolution.population = 64;
@@ -23,8 +23,11 @@ ExperimentConfig bench_config() {
 }   // namespace
 
 BenchOutcome run_bench(Session const& session) {
-    WorkOrder const order{bench_config(), arena_text("collectball"), "", ""};
-    EvaluationContext context = context_of(order);
+    ExperimentConfig config = bench_config();
+    WorkOrder const order{config, arena_text_of(config), 0, "", ""};
+    RunWorld world = open_run_world(config, order.arena_text);
+    config.evolution.interface = world.record().interface();
+    EvaluationContext context = context_of(order, std::move(world));
     give_order(session, order);
     Farm farm{session.world(), std::move(context)};
     std::uint64_t evaluations = 0;
@@ -33,8 +36,7 @@ BenchOutcome run_bench(Session const& session) {
         evaluations += report.born.size();
         return true;
     };
-    EvolutionState const state =
-        evolve(order.config.evolution, bench_seed, farm.evaluator(), farm.distances(), {}, count);
+    EvolutionState const state = evolve(config.evolution, bench_seed, farm.evaluator(), farm.distances(), {}, count);
     double const seconds = watch.total();
     return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
 }

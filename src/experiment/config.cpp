@@ -68,8 +68,12 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
     std::size_t const equals = override.find('=');
     if (equals == std::string::npos || equals == 0)
         throw UsageError(label, "there is no key=value in it", "Write it like --set evolution.generations=500.");
-    std::string const key = override.substr(0, equals);
+    std::string key = override.substr(0, equals);
     std::string value = override.substr(equals + 1);
+    if (constexpr std::string_view table = "world.settings."; key.starts_with(table)) {
+        value = fmt::format("{{ {} = {} }}", key.substr(table.size()), value);
+        key = table.substr(0, table.size() - 1);
+    }
     auto const setting =
         std::find_if(settings.begin(), settings.end(), [&](Setting const& s) { return s.full_key() == key; });
     if (setting == settings.end()) {
@@ -140,6 +144,11 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
     auto const settings = settings_of(config);
     read_settings(TomlTable::parse(text, name), settings);
     config.arena = located(config.arena, directory);
+    if (config.has_world())
+        config.world.folder =
+            config.world.folder.empty()
+                ? directory
+                : (std::filesystem::path{directory} / config.world.folder).lexically_normal().string();
     if (!config.founders_from.empty())
         config.founders_from = (std::filesystem::path{directory} / config.founders_from).lexically_normal().string();
     std::string origin = name;

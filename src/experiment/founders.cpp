@@ -14,11 +14,21 @@ namespace lore {
 
 namespace {
 
-std::vector<Genome> last_population(std::string const& directory) {
-    LineageArchive const lineage = open_run(directory).lineage;
+struct Origin {
     std::vector<Genome> genomes;
-    for (IndividualId const id : lineage.last_population) genomes.push_back(lineage.find(id)->genome);
-    return genomes;
+    Channels channels;   ///< that they serve
+};
+
+Origin last_population(std::string const& directory) {
+    LineageArchive const lineage = read_lineage((std::filesystem::path{directory} / run_file::lineage).string());
+    Origin origin{{}, lineage.world.channels};
+    for (IndividualId const id : lineage.last_population) origin.genomes.push_back(lineage.find(id)->genome);
+    return origin;
+}
+
+Origin clones_of(std::string const& path, int count, std::uint64_t seed) {
+    KnowledgeBase const base = read_knowledge_base(path);
+    return {clone(base, {.count = count, .seed = seed}).genomes, base.config().channels};
 }
 
 constexpr char clones[] = "clones of a knowledge base";
@@ -27,10 +37,11 @@ bool is_knowledge_base(std::string const& path) {
     return !std::filesystem::is_directory(path) && kind_of_file(path) == FileKind::knowledge_base;
 }
 
-std::vector<Genome> genomes_of(std::string const& from, int count, std::uint64_t seed) {
+Origin origin_of(std::string const& from, int count, std::uint64_t seed) {
     if (std::filesystem::is_directory(from)) return last_population(from);
-    if (is_knowledge_base(from)) return clone(read_knowledge_base(from), {.count = count, .seed = seed}).genomes;
-    return read_founders(from).genomes;
+    if (is_knowledge_base(from)) return clones_of(from, count, seed);
+    FoundersFile file = read_founders(from);
+    return {std::move(file.genomes), file.world.channels};
 }
 
 }   // namespace
@@ -57,9 +68,12 @@ FileRecord founders_record(std::string const& from) {
     return record;
 }
 
-std::vector<Genome> read_founder_genomes(std::string const& from, NetworkLimits const& limits, int count,
-                                         std::uint64_t seed) {
-    std::vector<Genome> genomes = genomes_of(from, count, seed);
+std::vector<Genome> read_founder_genomes(std::string const& from, Channels const& channels, NetworkLimits const& limits,
+                                         int count, std::uint64_t seed) {
+    auto [genomes, theirs] = origin_of(from, count, seed);
+    if (std::string const why = why_misfit(theirs, channels); !why.empty())
+        throw UsageError(fmt::format("{} does not fit the run", from), why,
+                         "Take founders that were made for this world's channels.");
     for (std::size_t i = 0; i < genomes.size(); ++i) {
         auto const refuse = [&](std::string const& reason, std::string_view setting) {
             throw UsageError(fmt::format("{} does not fit the run", from),

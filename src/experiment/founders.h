@@ -18,7 +18,8 @@ FileRecord founders_record(std::string const& from);
 
 /// The genomes that founders come from: the last population of a run in the order in which selection left it
 /// (lineage.lore), a founders file's, or `count` clones of a knowledge base, drawn by `seed` (knowledge/clone.h).
-/// Throws Error: missing or damaged; UsageError: made for another robot, or beyond the limits.
-std::vector<Genome> read_founder_genomes(std::string const& from, NetworkLimits const&, int count, std::uint64_t seed);
+/// Throws Error: missing or damaged; UsageError: made for other channels, or beyond the limits.
+std::vector<Genome> read_founder_genomes(std::string const& from, Channels const&, NetworkLimits const&, int count,
+                                         std::uint64_t seed);
 
 }   // namespace lore

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -32,9 +33,9 @@ constexpr int chunk_steps = 50;
 /// belongs together.
 struct Batch {
     std::vector<IndividualId> ids;
-    std::vector<int> balls;
+    std::vector<double> rewards;
     std::vector<Network> networks;
-    std::vector<Trace> traces;   ///< without poses
+    std::vector<Trace> traces;   ///< without positions and outcomes
 
     std::size_t size() const { return ids.size(); }
 };
@@ -88,20 +89,13 @@ private:
 /// Thrown through a reader of the archive once no more is wanted; never leaves this file.
 struct Abandoned {};
 
-/// Where the channels that decide a delivery are among the bits and the values of a step.
-constexpr std::size_t place_in(auto const& channels, Channel wanted) {
-    std::size_t place = 0;
-    while (channels[place] != static_cast<int>(wanted)) ++place;
-    return place;
-}
-constexpr unsigned carrying_bit = 1u << place_in(binary_channels, Channel::carrying);
-constexpr std::size_t collect_place = place_in(continuous_channels, Channel::collect);
-
 /// Gathers the sensorimotor records of episodes that run in lanes.
 class Recorder : public LaneClient {
 public:
-    Recorder(Arena const& arena, std::span<Network const> networks, std::vector<Trace>& traces)
-        : arena_(arena), networks_(networks), order_(largest_first(networks)), traces_(traces) {}
+    Recorder(Channels const& channels, std::span<Network const> networks, std::vector<Trace>& traces)
+        : words_(static_cast<std::size_t>(channels.words())),
+          continuous_(static_cast<std::size_t>(channels.continuous_count())), networks_(networks),
+          order_(largest_first(networks)), traces_(traces) {}
 
     Network const* next(int lane) override {
         if (next_ == order_.size()) return nullptr;
@@ -116,71 +110,73 @@ public:
             auto const steps = static_cast<std::size_t>(valid[lane]);
             if (steps == 0) continue;
             Trace& trace = traces_[episodes_[lane]];
-            record_deliveries(chunk, lane, steps, trace);
-            for (std::size_t step = 0; step < steps; ++step)
-                trace.channel_bits.push_back(chunk.words[step * width + lane]);
-            for (std::size_t i = 0; i < steps * continuous_count; ++i)
+            firsts_[lane] = static_cast<int>(trace.channel_bits.size() / words_);
+            for (std::size_t i = 0; i < steps * words_; ++i)
+                trace.channel_bits.push_back(chunk.words[i * width + lane]);
+            for (std::size_t i = 0; i < steps * continuous_; ++i)
                 trace.values.push_back(chunk.values[i * width + lane]);
+        }
+        for (LaneReward const& reward : chunk.rewards) {
+            auto const lane = static_cast<std::size_t>(reward.lane);
+            traces_[episodes_[lane]].rewards.push_back({firsts_[lane] + reward.row, reward.amount});
         }
     }
 
     void rest(int lane, int steps) override {
         Trace& trace = traces_[episodes_[static_cast<std::size_t>(lane)]];
-        std::size_t const last = trace.values.size() - continuous_count;
-        trace.channel_bits.insert(trace.channel_bits.end(), static_cast<std::size_t>(steps),
-                                  std::uint16_t{trace.channel_bits.back()});
-        for (int step = 0; step < steps; ++step)
-            for (std::size_t i = 0; i < continuous_count; ++i) trace.values.push_back(trace.values[last + i]);
-    }
-
-    void end(int lane, WorldState const& final_world) override {
-        traces_[episodes_[static_cast<std::size_t>(lane)]].final_world = final_world;
-    }
-
-private:
-    /// Before the chunk's steps are appended to the trace.
-    void record_deliveries(LaneChunk const& chunk, std::size_t lane, std::size_t steps, Trace& trace) const {
-        auto const width = static_cast<std::size_t>(chunk.width);
-        for (std::size_t step = 0; step < steps; ++step) {
-            std::size_t const at = step * width + lane;
-            if ((chunk.words[at] & carrying_bit) == 0) continue;
-            float const collect = chunk.values[(step * continuous_count + collect_place) * width + lane];
-            if (delivers(arena_, {chunk.x[at], chunk.y[at]}, true, collect))
-                trace.deliveries.push_back(trace.steps() + static_cast<int>(step));
+        std::size_t const bits = trace.channel_bits.size() - words_, values = trace.values.size() - continuous_;
+        for (int step = 0; step < steps; ++step) {
+            for (std::size_t i = 0; i < words_; ++i) trace.channel_bits.push_back(trace.channel_bits[bits + i]);
+            for (std::size_t i = 0; i < continuous_; ++i) trace.values.push_back(trace.values[values + i]);
         }
     }
 
-    Arena const& arena_;
+    void end(int lane, LaneEnd const& end) override {
+        traces_[episodes_[static_cast<std::size_t>(lane)]].reward = end.reward;
+    }
+
+private:
+    std::size_t words_, continuous_;
     std::span<Network const> networks_;
     std::vector<int> order_;
     std::size_t next_ = 0;
     std::vector<Trace>& traces_;
     std::array<std::size_t, most_lanes> episodes_{};
+    std::array<int, most_lanes> firsts_{};   ///< the step of the episode at which the chunk begins
 };
 
 void simulate(RunDirectory const& run, Batch& batch) {
+    World const& world = *run.world.world;
+    Channels const channels{world.facts()};
+    auto const steps = static_cast<std::size_t>(run.config.episode.steps);
     batch.traces.resize(batch.size());
     for (Trace& trace : batch.traces) {
-        trace.channel_bits.reserve(static_cast<std::size_t>(run.config.episode.steps));
-        trace.values.reserve(static_cast<std::size_t>(run.config.episode.steps) * continuous_count);
+        trace.channels = channels;
+        trace.channel_bits.reserve(steps * static_cast<std::size_t>(channels.words()));
+        trace.values.reserve(steps * static_cast<std::size_t>(channels.continuous_count()));
     }
-    Recorder recorder{run.arena, batch.networks, batch.traces};
-    run_in_lanes(run.arena, run.config.episode, chunk_steps, recorder);
+    Recorder recorder{channels, batch.networks, batch.traces};
+    run_in_lanes(world, run.config.episode, chunk_steps, recorder);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-        assert(std::cmp_equal(batch.traces[i].deliveries.size(), batch.traces[i].final_world.collected));
-        if (batch.traces[i].final_world.collected != batch.balls[i])
-            throw Error(
-                fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
-                fmt::format("{} balls now, {} in its archive", batch.traces[i].final_world.collected, batch.balls[i]),
-                "Build with the version of Lore and the arena file that the run was made with.");
+        if (batch.traces[i].reward != batch.rewards[i])
+            throw Error(fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
+                        fmt::format("{} {} now, {} in its archive", batch.traces[i].reward, world.facts().reward_unit,
+                                    batch.rewards[i]),
+                        "Build with the version of Lore and the world that the run was made with.");
     }
 }
 
 /// Calls its argument for each individual in the order of building.
-using Source = std::function<void(std::function<void(IndividualId, Genome const&, int balls)> const&)>;
+using Source = std::function<void(std::function<void(IndividualId, Genome const&, double reward)> const&)>;
 
-KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig const& config, IndexChoice index,
+/// Half of the best; of whole rewards rounded up and at least 1.
+double usual_success(double best) {
+    return best == std::floor(best) && best >= 0 ? std::max(1.0, std::ceil(best / 2)) : best / 2;
+}
+
+KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig config, IndexChoice index,
                     Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence) {
+    config.channels = Channels{run.world.world->facts()};
     BatchQueue queue;
     std::thread simulator{[&] {
         try {
@@ -189,9 +185,9 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
                 simulate(run, batch);
                 if (!queue.put(std::exchange(batch, {}))) throw Abandoned{};
             };
-            source([&](IndividualId id, Genome const& genome, int balls) {
+            source([&](IndividualId id, Genome const& genome, double reward) {
                 batch.ids.push_back(id);
-                batch.balls.push_back(balls);
+                batch.rewards.push_back(reward);
                 batch.networks.push_back(compile(genome));
                 if (batch.size() == batch_size) send();
             });
@@ -215,8 +211,8 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
-            exhibits.push_back({windows_of(batch.traces[i], config.window_length), static_cast<double>(batch.balls[i]),
-                                batch.traces[i].deliveries, batch.ids[i].generation});
+            exhibits.push_back({windows_of(batch.traces[i], config.window_length), batch.rewards[i],
+                                batch.traces[i].rewards, batch.ids[i].generation});
         if (index.kind == IndexKind::exact) {
             builder.add_individuals(exhibits, threads);
         } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
@@ -226,7 +222,9 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     }
     provenance.index = text(index);
     provenance.sources = {run.path};
-    provenance.task = fmt::format("{} {}", run.arena.name, run.arena.task.name);
+    WorldFacts const& facts = run.world.world->facts();
+    provenance.task = fmt::format("{} {}", facts.name, facts.task);
+    provenance.reward_unit = facts.reward_unit;
     return std::move(builder).finish(std::move(provenance));
 }
 
@@ -238,31 +236,31 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individ
                                    IndexChoice index, Provenance provenance, BuildingObserver const& observe,
                                    std::vector<double> gammas) {
     provenance.kind = "lineage";
-    provenance.best_balls = individual.balls;
+    provenance.best_reward = individual.reward;
     Source const lineage = [&](auto const& each) {
-        for (Birth const* ancestor : lineage_of(individual)) each(ancestor->id, ancestor->genome, ancestor->balls);
+        for (Birth const* ancestor : lineage_of(individual)) each(ancestor->id, ancestor->genome, ancestor->reward);
     };
-    EvidenceConfig evidence{std::move(gammas), true, 0};
+    EvidenceConfig evidence{std::move(gammas), true, {}};
     return build(run, lineage, config, index, std::move(provenance), observe, std::move(evidence));
 }
 
 KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexChoice index,
                                Provenance provenance, BuildingObserver const& observe, std::vector<double> gammas,
-                               int success_balls) {
+                               std::optional<double> success_reward) {
     assert(every >= 1);
     archived_individuals(run);
     provenance.kind = "all";
-    provenance.best_balls = run.individual("best")->balls;
+    provenance.best_reward = run.individual("best")->reward;
     Source const all_individuals = [&](auto const& each) {
         std::uint64_t number = 0;
         for_each_individual(run.file(run_file::all_individuals), run.lineage.generation,
                             [&](ArchivedIndividual const& individual) {
                                 if (number++ % static_cast<std::uint64_t>(every) == 0)
-                                    each(individual.id, individual.genome, individual.balls);
+                                    each(individual.id, individual.genome, individual.reward);
                             });
     };
-    if (success_balls == 0) success_balls = std::max(1, (provenance.best_balls + 1) / 2);
-    EvidenceConfig evidence{std::move(gammas), false, success_balls};
+    if (!success_reward) success_reward = usual_success(provenance.best_reward);
+    EvidenceConfig evidence{std::move(gammas), false, success_reward};
     return build(run, all_individuals, config, index, std::move(provenance), observe, std::move(evidence));
 }
 

@@ -68,6 +68,12 @@ RunSession session_from(Json const& json) {
     return session;
 }
 
+/// Balls go by the name that they have always had.
+Json reward_of(Manifest const& manifest) {
+    if (manifest.world.reward_unit == "balls") return {"best_balls", static_cast<std::int64_t>(manifest.best_reward)};
+    return {"best_reward", manifest.best_reward};
+}
+
 }   // namespace
 
 std::string_view name(RunStatus status) { return status_names[status]; }
@@ -77,25 +83,26 @@ void write_manifest(std::string const& path, Manifest const& manifest) {
     for (auto const& [library, version] : manifest.build.libraries) libraries[library] = version;
     Json sessions = Json::array();
     for (RunSession const& session : manifest.sessions) sessions.push_back(to_json(session));
-    Json const json{{"format", manifest_format},
-                    {"status", name(manifest.status)},
-                    {"name", manifest.name},
-                    {"task", manifest.task},
-                    {"seed", manifest.seed},
-                    {"generation", manifest.generation},
-                    {"generations", manifest.generations},
-                    {"signature", manifest.signature},
-                    {"best_balls", manifest.best_balls},
-                    {"best", manifest.best},
-                    {"build",
-                     {{"version", manifest.build.version},
-                      {"commit", manifest.build.commit},
-                      {"compiler", manifest.build.compiler},
-                      {"build_type", manifest.build.build_type},
-                      {"libraries", libraries}}},
-                    {"inputs", to_json(manifest.inputs)},
-                    {"outputs", to_json(manifest.outputs)},
-                    {"sessions", sessions}};
+    Json json{{"format", manifest_format},
+              {"status", name(manifest.status)},
+              {"name", manifest.name},
+              {"task", manifest.task},
+              {"seed", manifest.seed},
+              {"generation", manifest.generation},
+              {"generations", manifest.generations},
+              {"signature", manifest.signature},
+              reward_of(manifest),
+              {"best", manifest.best},
+              {"build",
+               {{"version", manifest.build.version},
+                {"commit", manifest.build.commit},
+                {"compiler", manifest.build.compiler},
+                {"build_type", manifest.build.build_type},
+                {"libraries", libraries}}},
+              {"inputs", to_json(manifest.inputs)},
+              {"outputs", to_json(manifest.outputs)},
+              {"sessions", sessions}};
+    if (!manifest.world.name.empty()) json["world"] = Json::parse(to_json(manifest.world));
     // A command line may hold any bytes; those that are no UTF-8 are replaced.
     write_file_atomically(path, std::string_view{json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"});
 }
@@ -120,7 +127,14 @@ Manifest read_manifest(std::string const& path) {
         manifest.generation = whole_number<int>(json.at("generation"));
         manifest.generations = whole_number<int>(json.at("generations"));
         manifest.signature = json.at("signature");
-        manifest.best_balls = whole_number<int>(json.at("best_balls"));
+        manifest.best_reward = json.contains("best_reward") ? json.at("best_reward").get<double>()
+                                                            : whole_number<int>(json.at("best_balls"));
+        if (json.contains("world")) {
+            manifest.world = parse_world_record(json.at("world").dump());
+        } else {
+            manifest.world.task = manifest.task;
+            manifest.world.reward_unit = "balls";
+        }
         manifest.best = json.at("best");
         Json const& build = json.at("build");
         manifest.build = {build.at("version"), build.at("commit"), build.at("compiler"), build.at("build_type"), {}};

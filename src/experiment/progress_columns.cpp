@@ -39,8 +39,8 @@ bool read(std::string_view field, Row& row) {
     return take(field, row.*member);
 }
 template <auto member>
-constexpr ProgressColumn column(std::string_view name) {
-    return {name, [](Row const& row) { return text_of(row.*member); }, read<member>};
+constexpr ProgressColumn column(std::string_view name, std::string_view other_name = "") {
+    return {name, other_name, [](Row const& row) { return text_of(row.*member); }, read<member>};
 }
 
 /// In a period that the shaping value serves (ShapingUse::distance) the distance is measured, but no objective.
@@ -56,9 +56,9 @@ std::string milliseconds(Row const& row) { return fmt::format("{:.3f}", row.seco
 /// on.
 constexpr ProgressColumn columns[]{
     column<&Row::generation>("generation"),
-    column<&Row::best_balls>("best_balls"),
-    column<&Row::mean_balls>("mean_balls"),
-    {"distance", serving, read_serving},
+    column<&Row::best_reward>("best_balls", "best_reward"),
+    column<&Row::mean_reward>("mean_balls", "mean_reward"),
+    {"distance", "", serving, read_serving},
     column<&Row::mean_diversity>("mean_diversity"),
     column<&Row::best_shaping>("best_shaping"),
     column<&Row::mean_connections>("mean_connections"),
@@ -68,7 +68,7 @@ constexpr ProgressColumn columns[]{
     column<&Row::shaping_at_max>("shaping_at_max"),
     column<&Row::evaluations>("evaluations"),
     column<&Row::steps>("steps"),
-    {"seconds", milliseconds, read<&Row::seconds>},
+    {"seconds", "", milliseconds, read<&Row::seconds>},
 };
 
 }   // namespace
@@ -80,8 +80,9 @@ std::optional<FileColumns> columns_named(std::string_view header, std::span<Prog
     FileColumns named;
     CsvFields fields{header};
     while (auto const field = fields.next()) {
-        auto const column =
-            std::find_if(known.begin(), known.end(), [&](ProgressColumn const& one) { return one.name == *field; });
+        auto const column = std::find_if(known.begin(), known.end(), [&](ProgressColumn const& one) {
+            return one.name == *field || (!one.other_name.empty() && one.other_name == *field);
+        });
         if (column == known.end() || std::find(named.begin(), named.end(), &*column) != named.end())
             return std::nullopt;
         named.push_back(&*column);
@@ -97,9 +98,12 @@ FileColumns all_columns() {
     return all;
 }
 
-std::string header_of(FileColumns const& of_file) {
+std::string header_of(FileColumns const& of_file, std::string_view reward_unit) {
+    bool const other = reward_unit != "balls";
     std::string header;
-    for (ProgressColumn const* column : of_file) header.append(header.empty() ? "" : ",").append(column->name);
+    for (ProgressColumn const* column : of_file)
+        header.append(header.empty() ? "" : ",")
+            .append(other && !column->other_name.empty() ? column->other_name : column->name);
     return header;
 }
 

@@ -14,6 +14,7 @@ namespace lore {
 /// One column of progress.csv, described once: header, rows and reading all follow from it.
 struct ProgressColumn {
     std::string_view name;
+    std::string_view other_name;   ///< where the reward is not in balls; empty: the same
     std::string (*text)(GenerationSummary const&);
     bool (*read)(std::string_view field, GenerationSummary&);   ///< false: the field is no such value
 };
@@ -33,7 +34,7 @@ std::optional<FileColumns> columns_named(std::string_view header,
                                          std::size_t required = columns_of_every_file);
 FileColumns all_columns();
 
-std::string header_of(FileColumns const&);
+std::string header_of(FileColumns const&, std::string_view reward_unit);
 /// Without the end of the line, as is what row_from takes.
 std::string row_text(FileColumns const&, GenerationSummary const&);
 /// Nothing if a field is not what it should be, or there are more or fewer of them than columns.

@@ -41,7 +41,7 @@ Error write_error(std::string const& path) {
 
 }   // namespace
 
-std::string progress_header() { return header_of(all_columns()); }
+std::string progress_header(std::string_view reward_unit) { return header_of(all_columns(), reward_unit); }
 
 std::string text(GenerationSummary const& row) { return row_text(all_columns(), row); }
 
@@ -87,7 +87,8 @@ std::optional<GenerationSummary> read_last_progress(std::string const& path) {
     return row_from(*columns, std::string_view{tail}.substr(begin, end - begin));
 }
 
-ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(std::move(path)) {
+ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes, std::string_view reward_unit)
+    : path_(std::move(path)) {
     bool const fresh = bytes == 0;
     if (!fresh) {
         struct stat status {};
@@ -103,7 +104,7 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes) : path_(st
     bytes_ = bytes;
     if (fresh) {
         columns_ = all_columns();
-        write(header_of(columns_) + "\n");
+        write(header_of(columns_, reward_unit) + "\n");
     } else {
         std::string const start = first_bytes(open_regular(path_), longest_header);
         columns_ = columns_of(std::string_view{start}.substr(0, start.find('\n')), path_);

@@ -27,19 +27,19 @@ namespace {
 
 constexpr int generations_a_line = 100;   ///< of progress, where stderr is no terminal
 
-std::string describe(GenerationSummary const& row, bool shaped) {
+std::string describe(GenerationSummary const& row, std::string_view unit, bool shaped) {
     std::string note =
-        fmt::format("best {} balls, mean {:.2f}, {}", row.best_balls, row.mean_balls, name(row.distance));
+        fmt::format("best {} {}, mean {:.2f}, {}", row.best_reward, unit, row.mean_reward, name(row.distance));
     if (shaped) note += fmt::format(", shaping {:.2f}", row.best_shaping);
     return note;
 }
 
 /// The error of an evaluation that threw: names the individual, whose genome it saves.
-Error tell(EvaluationFailure const& failure, int generation, std::string const& genome_path) {
+Error tell(EvaluationFailure const& failure, int generation, WorldRecord const& world, std::string const& genome_path) {
     IndividualId const id{static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(failure.index())};
     std::string remedy;
     try {
-        write_genome(genome_path, {id, failure.genome(), failure.rank(), failure.reason()});
+        write_genome(genome_path, {id, failure.genome(), failure.rank(), failure.reason(), world});
         remedy = fmt::format("Its genome is in {}; resume the run when the cause is mended.", genome_path);
     } catch (Error const& error) { remedy = fmt::format("Its genome could not be saved: {}", error.what()); }
     return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id),
@@ -48,14 +48,14 @@ Error tell(EvaluationFailure const& failure, int generation, std::string const& 
 }
 
 /// The exception that is being handled, as an Error.
-Error failure_in_hand(int generation, std::string const& genome_path) {
+Error failure_in_hand(int generation, WorldRecord const& world, std::string const& genome_path) {
     auto const of_rank_0 = [&](std::string const& reason, std::string_view remedy) {
         return Error(fmt::format("rank 0 on {} failed in generation {}", host_name(), generation), reason, remedy);
     };
     try {
         throw;
     } catch (EvaluationFailure const& failure) {
-        return tell(failure, generation, genome_path);
+        return tell(failure, generation, world, genome_path);
     } catch (Error const& error) { return error; } catch (std::bad_alloc const&) {
         return of_rank_0("out of memory", "Resume the run where there is more.");
     } catch (std::exception const& error) { return of_rank_0(error.what(), "Resume the run."); }
@@ -103,12 +103,16 @@ void mend_lineage(RunSetup const& setup) {
     FileRecord const* const listed = find_path(setup.manifest.outputs, run_file::lineage);
     bool const whole = std::filesystem::exists(path) &&
                        (listed == nullptr || record_of(listed->role, path, listed->path).checksum == listed->checksum);
-    if (!whole) write_lineage(path, setup.checkpoint->state.population, setup.founders_origin());
+    if (!whole) write_lineage(path, setup.checkpoint->state.population, setup.manifest.world, setup.founders_origin());
 }
 
-RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason) {
-    return {stop_reason.empty(), stop_reason, state.signature.text(), state.population.generation,
-            best_of_run(state.population).birth};
+RunOutcome outcome(EvolutionState const& state, std::string const& stop_reason, std::string const& reward_unit) {
+    return {stop_reason.empty(),
+            stop_reason,
+            state.signature.text(),
+            state.population.generation,
+            best_of_run(state.population).birth,
+            reward_unit};
 }
 
 /// What happens after a generation: it is entered into the books and shown, and the run stops or goes on.
@@ -126,7 +130,7 @@ public:
     bool after_generation(GenerationReport const& report) {
         generation_ = report.generation;
         selection_seconds_ += report.selection_seconds;
-        progress_.update(generation_, describe(books_.add(report), evolution_.use_shaping));
+        progress_.update(generation_, describe(books_.add(report), books_.reward_unit(), evolution_.use_shaping));
         if (generation_ == evolution_.generations) return true;
         stop_reason_ = stop_request();
         if (stop_reason_.empty() && options_.max_seconds && watch_.total() >= *options_.max_seconds)
@@ -161,7 +165,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     if (run.setup.already_done) {
         release_other_ranks(session);
         mend_lineage(run.setup);
-        return outcome(state, "");
+        return outcome(state, "", run.setup.manifest.world.reward_unit);
     }
     if (!run.setup.warning.empty()) write_stderr(fmt::format("warning: {}\n", run.setup.warning));
 
@@ -170,10 +174,12 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     // Releases the others whatever happens from here on.
     Farm farm{session.world(), std::move(run.context)};
     EvolutionConfig evolution = run.setup.order.config.evolution;
+    evolution.interface = run.setup.manifest.world.interface();
     evolution.feature_values = std::move(feature_values);
     std::uint64_t const seed = run.setup.seed;
     std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);
+    WorldRecord const world = run.setup.manifest.world;
     RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
     Supervisor supervisor{books, evolution, options, watch,
                           state.population.members.empty() ? -1 : state.population.generation};
@@ -181,7 +187,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         auto const observe = [&](GenerationReport const& report) { return supervisor.after_generation(report); };
         state = evolve(evolution, seed, farm.evaluator(), farm.distances(), std::move(state), observe, founders);
     } catch (std::exception const&) {
-        Error const told = failure_in_hand(supervisor.generation() + 1, genome_path);
+        Error const told = failure_in_hand(supervisor.generation() + 1, world, genome_path);
         if (farm.broken()) end_all(session, told);
         throw told;
     }
@@ -192,7 +198,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
                 stop_reason.empty() ? "done" : stop_reason);
     if (!options.quiet)
         write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}));
-    return outcome(state, stop_reason);
+    return outcome(state, stop_reason, books.reward_unit());
 }
 
 }   // namespace lore

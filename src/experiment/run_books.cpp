@@ -34,8 +34,10 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
     if (setup_.has_former_digest) renew_digest(setup_);
     // The configuration comes last: a directory holds a run as soon as it has one, and then has all that it needs.
     ExperimentConfig kept = setup_.order.config;
-    kept.arena = run_file::arena;
-    write_file_atomically(setup_.file(run_file::arena), std::string_view{setup_.order.arena_text});
+    if (!kept.has_world()) {
+        kept.arena = run_file::arena;
+        write_file_atomically(setup_.file(run_file::arena), std::string_view{setup_.order.arena_text});
+    }
     RunSession session;
     session.command_line = std::move(command_line);
     session.started = time_stamp();
@@ -49,10 +51,10 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
     write_manifest_now();
     write_file_atomically(setup_.file(run_file::config), std::string_view{to_toml(kept)});
 
-    progress_.emplace(setup_.file(run_file::progress), from ? from->progress_bytes : 0);
+    progress_.emplace(setup_.file(run_file::progress), from ? from->progress_bytes : 0, reward_unit());
     if (setup_.archive_all) {
         if (from) all_.emplace(setup_.file(run_file::all_individuals), from->all_individuals, from->state.population);
-        else all_.emplace(setup_.file(run_file::all_individuals));
+        else all_.emplace(setup_.file(run_file::all_individuals), setup_.manifest.world);
     }
     if (from) {
         former_seconds_ = from->seconds;
@@ -87,6 +89,7 @@ void RunBooks::write_checkpoint(EvolutionState const& state) {
     auto const before = Clock::now();
     Checkpoint checkpoint;
     checkpoint.state = state;
+    checkpoint.world = setup_.manifest.world;
     checkpoint.seed = setup_.seed;
     checkpoint.config_digest = setup_.digest;
     checkpoint.evaluations = row_.evaluations;
@@ -104,7 +107,7 @@ void RunBooks::write_manifest_now() { write_manifest(setup_.file(run_file::manif
 
 void RunBooks::close(EvolutionState const& state, RunStatus status, std::string const& reason) {
     if (last_checkpoint_generation_ != state.population.generation) write_checkpoint(state);
-    write_lineage(setup_.file(run_file::lineage), state.population, setup_.founders_origin());
+    write_lineage(setup_.file(run_file::lineage), state.population, setup_.manifest.world, setup_.founders_origin());
     if (all_ && status == RunStatus::done) all_->finish();
 
     Manifest& manifest = setup_.manifest;
@@ -112,7 +115,7 @@ void RunBooks::close(EvolutionState const& state, RunStatus status, std::string 
     manifest.generation = state.population.generation;
     manifest.signature = state.signature.text();
     Individual const& best = best_of_run(state.population);
-    manifest.best_balls = best.birth->balls;
+    manifest.best_reward = best.birth->reward;
     manifest.best = text(best.id());
     manifest.outputs.clear();
     for (std::string_view const output : {run_file::config, run_file::arena, run_file::progress, run_file::lineage,

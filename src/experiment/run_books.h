@@ -30,6 +30,7 @@ public:
     /// Spent on files so far [s].
     double filing_seconds() const { return filing_seconds_; }
     GenerationSummary const& last_row() const { return row_; }
+    std::string const& reward_unit() const { return setup_.manifest.world.reward_unit; }
 
 private:
     using Clock = std::chrono::steady_clock;   // never jumps

@@ -12,7 +12,8 @@ namespace lore {
 namespace {
 
 std::string digested(std::string_view settings, WorkOrder const& order, std::uint64_t seed) {
-    return fmt::format("{}\n{}\n{}\n{}", settings, order.arena_text, order.knowledge_checksum, seed);
+    std::string const world = order.world_checksum == 0 ? order.arena_text : checksum_text(order.world_checksum);
+    return fmt::format("{}\n{}\n{}\n{}", settings, world, order.knowledge_checksum, seed);
 }
 
 /// What the former digest put in the place of settings that do not affect results.

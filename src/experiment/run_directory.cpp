@@ -45,12 +45,15 @@ RunDirectory open_run(std::string const& path) {
         throw UsageError(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config),
                          "Check the path.");
     run.config = read_config(run.file(run_file::config));
-    run.arena = load_arena(run.config.arena, run.config.task);
+    run.world = open_run_world(run.config, arena_text_of(run.config));
     if (!std::filesystem::exists(run.file(run_file::lineage)))
         throw Error(fmt::format("no lineage in {}", path),
                     fmt::format("{} is written when a run stops or ends", run_file::lineage),
                     "Let it go on with 'lore-evolve --resume'.");
     run.lineage = read_lineage(run.file(run_file::lineage));
+    if (std::string const other = why_other(run.lineage.world, run.world.record()); !other.empty())
+        throw Error(fmt::format("cannot open the run in {}", path), other,
+                    "Give it the world that it was made with, or run it again.");
     return run;
 }
 

@@ -38,7 +38,7 @@ ExperimentConfig configuration_to_go_on_with(RunSetup const& setup, RunOptions c
     if (auto const others = differing_result_settings(recorded, wanted); !others.empty())
         throw cannot_go_on(setup, " under another configuration", fmt::format("it was started with {}", text(others)),
                            fmt::format("Compare {}, or start in another directory.", own));
-    if (arena_text(wanted.arena) != setup.order.arena_text)
+    if (arena_text_of(wanted) != setup.order.arena_text)
         throw cannot_go_on(setup, " in another arena", fmt::format("{} has changed since", wanted.arena),
                            "Start in another directory.");
     return wanted;
@@ -95,9 +95,7 @@ void find_founders(RunSetup& setup) {
                            fmt::format("{} is not the file it was started with", now.path),
                            "Give that one with --founders, or start in another directory.");
     if (recorded == nullptr) setup.manifest.inputs.push_back(now);
-    if (!setup.checkpoint)
-        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits,
-                                              setup.order.config.evolution.population, setup.seed);
+    if (!setup.checkpoint) setup.founders_are_due = true;
 }
 
 void take_seed(RunSetup& setup, RunOptions const& options) {
@@ -120,7 +118,8 @@ void choose_archive(RunSetup& setup, RunOptions const& options) {
 }   // namespace
 
 void resume(RunSetup& setup, RunOptions const& options) {
-    setup.order.arena_text = text_of(setup.file(run_file::arena));
+    if (std::string const arena = setup.file(run_file::arena); fs::exists(arena))
+        setup.order.arena_text = text_of(arena);
     setup.order.config = configuration_to_go_on_with(setup, options);
     if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
     find_knowledge(setup, options);
@@ -141,7 +140,8 @@ void check_digest(RunSetup& setup) {
                               former_digest_of(text_of(setup.file(run_file::config)), setup.order, setup.seed);
     if (!setup.has_former_digest)
         throw cannot_go_on(setup, "",
-                           fmt::format("{} or {} was changed since its checkpoint", run_file::config, run_file::arena),
+                           fmt::format("{} or {} was changed since its checkpoint", run_file::config,
+                                       setup.order.config.has_world() ? "its world" : run_file::arena),
                            "Restore them.");
 }
 

@@ -33,12 +33,12 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
         throw UsageError(fmt::format("nothing to start in {}", options.directory), "no configuration was given",
                          "Name one, such as jobs/tasks/source.toml.");
     setup.order.config = parse_config(setup.given, options.overrides);
-    setup.order.arena_text = arena_text(setup.order.config.arena);
+    setup.order.arena_text = arena_text_of(setup.order.config);
     if (!options.knowledge_base.empty()) setup.order.take_knowledge(options.knowledge_base);
     setup.seed = options.seed.value_or(1);
     setup.archive_all = options.archive_all;
     setup.manifest.inputs.push_back(record_of_text(file_role::configuration, setup.given.text, setup.given.path));
-    if (fs::exists(setup.order.config.arena))
+    if (!setup.order.config.has_world() && fs::exists(setup.order.config.arena))
         setup.manifest.inputs.push_back(
             record_of_text(file_role::arena, setup.order.arena_text, setup.order.config.arena));
     if (!options.knowledge_base.empty())
@@ -47,17 +47,48 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     if (std::string& from = setup.order.config.founders_from; !from.empty()) {
         from = absolute_path(from);
         setup.manifest.inputs.push_back(founders_record(from));
-        setup.founders = read_founder_genomes(from, setup.order.config.evolution.limits,
-                                              setup.order.config.evolution.population, setup.seed);
+        setup.founders_are_due = true;
     }
 }
 
 /// A start writes the configuration last, so the other files are there if it is.
 bool holds_a_run(RunSetup const& setup) { return fs::exists(setup.file(run_file::config)); }
 
+/// Opens the world. A run keeps to the one that it was started with.
+RunWorld settle_world(RunSetup& setup) {
+    ExperimentConfig& config = setup.order.config;
+    RunWorld world = open_run_world(config, setup.order.arena_text);
+    WorldRecord record = world.record();
+    bool const resumed = !setup.manifest.sessions.empty();
+    if (std::string const other = resumed ? why_other(setup.manifest.world, record) : ""; !other.empty())
+        throw UsageError(fmt::format("cannot go on with {}", setup.directory), other,
+                         "Give it the world that it was started with, or start in another directory.");
+    int const pairs = record.channels.sensors() * record.channels.effectors();
+    if (config.evolution.limits.max_edges < pairs)
+        throw UsageError(
+            "limits.max_edges is too small",
+            fmt::format("founders have {} connections, one from every sensor to every effector, and it is {}", pairs,
+                        config.evolution.limits.max_edges),
+            "Set it higher.");
+    setup.order.world_checksum = world.origin.checksum;
+    if (config.has_world()) config.world.folder = absolute_path(config.world.folder);
+    if (!world.origin.file.empty()) {
+        config.world.name = absolute_path(world.origin.file);
+        if (!resumed)
+            setup.manifest.inputs.push_back(record_of(file_role::world, config.world.name, config.world.name));
+    }
+    setup.manifest.world = std::move(record);
+    return world;
+}
+
 /// What a start and a resumption have in common: the settings fit each other, the checkpoint and the knowledge base.
 void settle(PreparedRun& run, RunOptions const& options) {
     RunSetup& setup = run.setup;
+    RunWorld world = settle_world(setup);
+    if (setup.founders_are_due)
+        setup.founders = read_founder_genomes(setup.order.config.founders_from, setup.manifest.world.channels,
+                                              setup.order.config.evolution.limits,
+                                              setup.order.config.evolution.population, setup.seed);
     if (setup.order.config.evolution.use_shaping && setup.order.knowledge_path.empty())
         throw UsageError("evolution.use_shaping is true", "no knowledge base is given", "Give one with --kb.");
     check_digest(setup);
@@ -70,11 +101,11 @@ void settle(PreparedRun& run, RunOptions const& options) {
     setup.already_done =
         setup.manifest.status == RunStatus::done && reached == setup.order.config.evolution.generations;
     setup.manifest.name = setup.order.config.name;
-    setup.manifest.task = setup.order.config.task;
+    setup.manifest.task = setup.manifest.world.task;
     setup.manifest.seed = setup.seed;
     setup.manifest.generations = setup.order.config.evolution.generations;
     setup.manifest.build = build_information();
-    run.context = context_of(setup.order);
+    run.context = context_of(setup.order, std::move(world));
 }
 
 }   // namespace

@@ -22,7 +22,8 @@ struct RunSetup {
     std::uint64_t digest = 0;         ///< of all that results depend on
     bool has_former_digest = false;   ///< the checkpoint's is of the former kind
     bool archive_all = false;
-    std::vector<Genome> founders;           ///< where generation 0 is still to be made from founders.from
+    bool founders_are_due = false;          ///< generation 0 is still to be made from founders.from
+    std::vector<Genome> founders;           ///< then
     Manifest manifest;                      ///< inputs and former sessions
     std::optional<Checkpoint> checkpoint;   ///< to go on from
     std::string warning;

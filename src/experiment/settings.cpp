@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <limits>
+#include <map>
 
 namespace lore {
 
@@ -93,7 +94,48 @@ public:
             });
     }
 
+    void add(std::string key, std::vector<std::string>& words, std::string_view doc,
+             Affects affects = Affects::results) {
+        push(
+            key, std::string{doc}, Setting::Kind::list, affects,
+            [=, &words](TomlTable const& table) {
+                if (auto read = table.strings(key)) words = *std::move(read);
+            },
+            [&words] {
+                std::vector<std::string> all;
+                for (std::string const& word : words) all.push_back(quoted(word));
+                return fmt::format("[{}]", fmt::join(all, ", "));
+            });
+    }
+    /// A table of any keys, kept as lines (TomlTable::lines). One that is read later adds to it, and wins.
+    void add_settings(std::string key, std::string& lines, std::string_view doc, Affects affects = Affects::results) {
+        push(
+            key, std::string{doc}, Setting::Kind::value, affects,
+            [=, &lines](TomlTable const& table) {
+                if (auto const read = table.table(key)) lines = merged(lines, read->lines());
+            },
+            [&lines] { return inline_table(lines); });
+    }
+
 private:
+    static std::vector<std::string> split(std::string_view lines) {
+        std::vector<std::string> all;
+        for (std::size_t end = 0; (end = lines.find('\n')) != std::string_view::npos; lines.remove_prefix(end + 1))
+            all.emplace_back(lines.substr(0, end));
+        return all;
+    }
+    static std::string merged(std::string_view old_lines, std::string_view new_lines) {
+        std::map<std::string, std::string> by_key;
+        for (std::string_view const lines : {old_lines, new_lines})
+            for (std::string const& line : split(lines)) by_key[line.substr(0, line.find(" = "))] = line;
+        std::string all;
+        for (auto const& [key, line] : by_key) all += line + "\n";
+        return all;
+    }
+    static std::string inline_table(std::string_view lines) {
+        std::vector<std::string> const all = split(lines);
+        return all.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(all, ", "));
+    }
     static std::string quoted(std::string_view text) {
         std::string literal = "\"";
         for (char const c : text) {
@@ -129,10 +171,21 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
     d.add("arena", config.arena, "a built-in arena's name, or a path relative to this file", Affects::nothing);
     d.add("task", config.task, "one of the arena's tasks");
 
+    d.section("world");
+    // As with the arena, what lies there counts, and the checksum of a library is compared.
+    d.add("library", config.world.name, "a shared library (docs/manual/worlds.md); empty: the arena above",
+          Affects::nothing);
+    d.add("process", config.world.process, "or a program that serves a world, with its arguments");
+    d.add("patience", config.world.patience, 0.001, 86400.0, "with a process: the longest that an answer may take [s]",
+          Affects::nothing);
+    d.add("folder", config.world.folder, "where both are looked for, and a process starts; empty: that of this file",
+          Affects::nothing);
+    d.add_settings("settings", config.world.settings, "what the world is told");
+
     d.section("episode");
     d.add("steps", config.episode.steps, 1, 32767, "length of an evaluation [steps]");
-    d.add("stop_when_still", config.episode.stop_when_still, 0, any,
-          "stop after so many steps without movement, counted together [steps]; 0 never");
+    d.add("stop_when_still", config.stop_when_still, 0, any,
+          "in an arena: stop after so many steps without movement, counted together [steps]; 0 never");
 
     EvolutionConfig& evolution = config.evolution;
     d.section("evolution");
@@ -177,8 +230,8 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
 
     d.section("limits");
     d.add("max_hidden", evolution.limits.max_hidden, 0, most_hidden, "hidden neurons of a controller");
-    d.add("max_edges", evolution.limits.max_edges, sensor_count * effector_count, most_edges,
-          "connections of a controller");
+    d.add("max_edges", evolution.limits.max_edges, 1, most_edges,
+          "connections of a controller; not fewer than from every sensor to every effector");
 
     d.section("knowledge");
     d.add("window_length", config.knowledge.window_length, 1, longest_window,

@@ -7,6 +7,7 @@
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/npy_file.h>
+#include <lore/collectball/arena.h>
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
@@ -100,8 +101,13 @@ std::string verify_table(std::string const& path) {
     return fmt::format("table of {} rows", count_csv_rows(path, text, remedy));
 }
 
+[[noreturn]] void refuse_without(std::string const& run, std::string_view file) {
+    throw Error(fmt::format("the run in {} is not whole", run), fmt::format("there is no {}", file),
+                "Take a copy that is whole.");
+}
+
 std::string verify_directory(std::string const& path) {
-    constexpr std::array always{run_file::config, run_file::arena, run_file::manifest};
+    constexpr std::array always{run_file::config, run_file::manifest};
     constexpr std::array known{run_file::config,           run_file::arena,           run_file::progress,
                                run_file::lineage,          run_file::all_individuals, run_file::checkpoint,
                                run_file::older_checkpoint, run_file::failed_genome,   run_file::manifest};
@@ -109,9 +115,10 @@ std::string verify_directory(std::string const& path) {
     if (std::none_of(known.begin(), known.end(), is_there))
         throw Error(fmt::format("cannot verify {}", path), "no run is in this directory", "Check the path.");
     for (char const* const file : always)
-        if (!is_there(file))
-            throw Error(fmt::format("the run in {} is not whole", path), fmt::format("there is no {}", file),
-                        "Take a copy that is whole.");
+        if (!is_there(file)) refuse_without(path, file);
+    if (!read_config((std::filesystem::path{path} / run_file::config).string()).has_world() &&
+        !is_there(run_file::arena))
+        refuse_without(path, run_file::arena);
     std::vector<std::string> whole;
     for (char const* const file : known) {
         if (!is_there(file)) continue;

@@ -20,6 +20,7 @@ constexpr std::string_view ready = "ready";
 Bytes pack(WorkOrder const& order) {
     auto const json = nlohmann::json::to_cbor({{"config", to_toml(order.config)},
                                                {"arena", order.arena_text},
+                                               {"world_checksum", order.world_checksum},
                                                {"knowledge", order.knowledge_path},
                                                {"knowledge_checksum", order.knowledge_checksum}});
     auto const* const first = reinterpret_cast<std::byte const*>(json.data());
@@ -32,12 +33,14 @@ WorkOrder unpack(Bytes const& bytes) {
     WorkOrder order;
     order.config = parse_config(json.at("config").get<std::string>(), "the configuration from rank 0", "");
     order.arena_text = json.at("arena");
+    order.world_checksum = json.at("world_checksum");
     order.knowledge_path = json.at("knowledge");
     order.knowledge_checksum = json.at("knowledge_checksum");
     return order;
 }
 
-void check_fit(KnowledgeBase const& base, ExperimentConfig const& config, std::string const& path) {
+void check_fit(KnowledgeBase const& base, Channels const& channels, ExperimentConfig const& config,
+               std::string const& path) {
     auto const refuse = [&](std::string const& reason, std::string const& remedy) {
         throw UsageError(fmt::format("{} does not fit the run", path), reason, remedy);
     };
@@ -50,6 +53,8 @@ void check_fit(KnowledgeBase const& base, ExperimentConfig const& config, std::s
         refuse(fmt::format("its threshold is {}, knowledge.match_threshold is {}", theirs.match_threshold,
                            ours.match_threshold),
                "Build another, or set knowledge.match_threshold.");
+    if (std::string const why = why_misfit(theirs.channels, channels); !why.empty())
+        refuse(why, "Build one from runs in this world.");
     if (base.size() == 0) refuse("it has no features", "Build another.");
 }
 
@@ -62,15 +67,17 @@ void WorkOrder::take_knowledge(std::string const& path) {
     config.evolution.use_shaping = true;
 }
 
-EvaluationContext context_of(WorkOrder const& order) {
-    EvaluationContext context{parse_arena(order.arena_text, order.config.arena, order.config.task),
-                              order.config.episode, std::nullopt};
+EvaluationContext context_of(WorkOrder const& order, RunWorld world) {
+    if (world.origin.checksum != order.world_checksum)
+        throw Error(fmt::format("{} on {} is not what rank 0 has", text(world.origin), host_name()),
+                    "its checksum differs", "Put it where all ranks see the same file.");
+    EvaluationContext context{std::move(world.world), order.config.episode, std::nullopt};
     if (!order.knowledge_path.empty()) {
         KnowledgeBase base = read_knowledge_base(order.knowledge_path);
         if (checksum_text(checksum_of_file(order.knowledge_path)) != order.knowledge_checksum)
             throw Error(fmt::format("{} on {} is not the file that rank 0 has", order.knowledge_path, host_name()),
                         "its checksum differs", "Put it where all ranks see the same file.");
-        check_fit(base, order.config, order.knowledge_path);
+        check_fit(base, Channels{context.world->facts()}, order.config, order.knowledge_path);
         context.shaper.emplace(std::move(base), order.config.evolution.shaping.rule);
     }
     return context;
@@ -99,7 +106,8 @@ void work_for_rank_0(Session const& session) {
     std::string answer;
     std::optional<EvaluationContext> context;
     try {
-        context = context_of(unpack(order));
+        WorkOrder const work = unpack(order);
+        context = context_of(work, open_run_world(work.config, work.arena_text));
         answer = std::string{ready} + host_name();
     } catch (std::exception const& error) {
         answer = fmt::format("rank {} on {}: {}", session.rank(), host_name(), error.what());

@@ -1,21 +1,17 @@
 #include <lore/figure/scene.h>
 
-#include <lore/arena/arena.h>
+#include <lore/figure/svg.h>
+#include <lore/world/world.h>
+
+#include <fmt/format.h>
 
 namespace lore {
 
-Scene scene_of(Arena const& arena) {
-    return {.width = arena.width,
-            .height = arena.height,
-            .walls = arena.walls,
-            .doors = arena.doors,
-            .ball_positions = arena.task.ball_positions,
-            .balls_at_start = arena.task.ball_rule == BallRule::all_at_start,
-            .basket_center = arena.basket_center,
-            .basket_radius = arena.basket_radius,
-            .basket_lights = arena.basket_lights,
-            .switch_position = arena.switch_position,
-            .robot_radius = arena.robot.radius};
+Scene scene_of(World const& world) {
+    WorldFacts const& facts = world.facts();
+    std::string svg = world.scene_svg();
+    if (!why_no_svg(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\">{}</svg>", svg)).empty()) svg.clear();
+    return {facts.width, facts.height, std::move(svg)};
 }
 
 }   // namespace lore

@@ -122,6 +122,11 @@ void SvgDocument::begin_clip(SvgPoint corner, double width, double height) {
 
 void SvgDocument::end_group() { text_ += "</g>\n"; }
 
+void SvgDocument::embed(SvgPoint corner, double scale, std::string_view element) {
+    text_ += fmt::format("<g transform=\"translate({} {}) scale({:.6g})\">{}</g>\n", number(corner.x), number(corner.y),
+                         scale, element);
+}
+
 std::string SvgDocument::finish() && { return std::move(text_) + "</svg>\n"; }
 
 }   // namespace lore

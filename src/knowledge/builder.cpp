@@ -12,7 +12,7 @@ namespace lore {
 KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<FeatureIndex> index, EvidenceConfig evidence)
     : config_(config), index_(std::move(index)) {
     assert(index_->size() == 0);
-    bool const wanted = !evidence.gammas.empty() || evidence.credit || evidence.success_balls > 0;
+    bool const wanted = !evidence.gammas.empty() || evidence.credit || evidence.success_reward;
     if (wanted) evidence_ = std::make_unique<EvidenceGatherer>(std::move(evidence), config.window_length);
     searches_.push_back(index_->search());
 }
@@ -37,7 +37,7 @@ void KnowledgeBuilder::add_individual(Exhibit const& exhibit) {
             index_->add(window);
             feature = add_feature();
         }
-        show(feature, i, exhibit.balls);
+        show(feature, i, exhibit.reward);
     }
     if (evidence_) evidence_->end();
 }
@@ -70,7 +70,7 @@ void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int th
                 added.push_back(&window);
                 match.feature = add_feature();
             }
-            show(match.feature, i, exhibit.balls);
+            show(match.feature, i, exhibit.reward);
         }
         if (evidence_) evidence_->end();
     }
@@ -103,13 +103,13 @@ int KnowledgeBuilder::add_feature() {
     return features() - 1;
 }
 
-void KnowledgeBuilder::show(int feature, std::size_t window, double balls) {
+void KnowledgeBuilder::show(int feature, std::size_t window, double reward) {
     auto const i = static_cast<std::size_t>(feature);
     bool const first = last_exhibitor_[i] != individuals_;
     if (evidence_) evidence_->show(feature, window, first);
     if (!first) return;
     last_exhibitor_[i] = individuals_;
-    sums_[i] += balls;
+    sums_[i] += reward;
     ++counts_[i];
 }
 

@@ -30,9 +30,10 @@ void check(KnowledgeBase const& base, CloneConfig const& config) {
     if (config.windows < 1 || config.windows > most_windows)
         refuse(fmt::format("{} windows a founder were asked for", config.windows),
                fmt::format("Ask for 1 to {}: together they have at most {} steps.", most_windows, most_cloned_steps));
-    if (config.hidden < 0 || config.hidden > std::min(most_hidden, most_cloned_hidden))
+    int const most_neurons = most_cloned_hidden(base.config().channels);
+    if (config.hidden < 0 || config.hidden > most_neurons)
         refuse(fmt::format("{} hidden neurons were asked for", config.hidden),
-               fmt::format("Ask for 0 to {}.", std::min(most_hidden, most_cloned_hidden)));
+               fmt::format("Ask for 0 to {}.", most_neurons));
 }
 
 /// Draws features with probability proportional to their value.
@@ -71,17 +72,18 @@ float gene_of(double decoded) {
 /// Adds a hidden neuron with random input weights, and the bias at which it tells apart what lies to both sides of one
 /// step drawn from the windows: with a random bias most neurons would give the same at every step.
 void add_hidden_neuron(Genome& genome, KnowledgeBase const& base, std::vector<int> const& features, Stream& rng) {
-    auto const neuron = static_cast<NeuronIndex>(first_hidden + genome.hidden_count());
+    Interface const interface = genome.interface;
+    auto const neuron = static_cast<NeuronIndex>(genome.first_hidden() + genome.hidden_count());
     int const feature = features[rng.below(static_cast<std::uint32_t>(features.size()))];
     auto const step = rng.below(static_cast<std::uint32_t>(base.config().window_length));
-    auto const channels = channels_at(base.window(feature), step);
+    auto const channels = channels_at(base.config().channels, base.window(feature), step);
     double sum = 0;
-    for (std::size_t input = 0; input < sensor_count; ++input) {
+    for (std::size_t input = 0; input < interface.inputs; ++input) {
         auto const gene = static_cast<float>(rng.uniform());
         genome.edges.push_back({static_cast<NeuronIndex>(input), neuron, gene});
         sum += static_cast<double>(decode_gene(gene)) * channels[input];
     }
-    for (int output = first_output; output < first_hidden; ++output)
+    for (int output = interface.first_output(); output < interface.first_hidden(); ++output)
         genome.edges.push_back({neuron, static_cast<NeuronIndex>(output), neutral_gene});
     genome.biases.push_back(gene_of(sum / bias_factor));
 }
@@ -89,20 +91,21 @@ void add_hidden_neuron(Genome& genome, KnowledgeBase const& base, std::vector<in
 /// Every sensor to every effector, then of each hidden neuron its inputs and its outputs. What leads to effectors is
 /// neutral.
 Genome unfitted(KnowledgeBase const& base, std::vector<int> const& features, int hidden, Stream& rng) {
-    Genome genome;
-    for (int input = 0; input < sensor_count; ++input)
-        for (int output = first_output; output < first_hidden; ++output)
+    Interface const interface { base.config().channels };
+    Genome genome{interface};
+    for (int input = 0; input < interface.inputs; ++input)
+        for (int output = interface.first_output(); output < interface.first_hidden(); ++output)
             genome.edges.push_back({static_cast<NeuronIndex>(input), static_cast<NeuronIndex>(output), neutral_gene});
-    genome.biases.assign(effector_count, neutral_gene);
+    genome.biases.assign(interface.outputs, neutral_gene);
     for (int h = 0; h < hidden; ++h) add_hidden_neuron(genome, base, features, rng);
     return genome;
 }
 
 /// What an effector's neuron reads at every step of the windows, and what it is to give.
 struct Pairs {
-    std::size_t width = 0;        ///< sensors, hidden neurons, and a constant 1
-    std::vector<double> inputs;   ///< [pair][width]
-    std::array<std::vector<double>, effector_count> targets;
+    std::size_t width = 0;                      ///< sensors, hidden neurons, and a constant 1
+    std::vector<double> inputs;                 ///< [pair][width]
+    std::vector<std::vector<double>> targets;   ///< [effector][pair]
 
     LogisticData of(std::size_t effector) const { return {width, inputs, targets[effector]}; }
 };
@@ -112,20 +115,22 @@ Pairs replay(KnowledgeBase const& base, std::vector<int> const& features, Genome
     Network const network = compile(genome);
     auto const hidden = static_cast<std::size_t>(genome.hidden_count());
     auto const length = static_cast<std::size_t>(base.config().window_length);
+    std::size_t const inputs = genome.interface.inputs, outputs = genome.interface.outputs;
+    std::vector<float> unused(outputs);
     Pairs pairs;
-    pairs.width = sensor_count + hidden + 1;
+    pairs.width = inputs + hidden + 1;
+    pairs.targets.resize(outputs);
     pairs.inputs.reserve(features.size() * length * pairs.width);
     for (int const feature : features) {
         Window const window = base.window(feature);
         NetworkState state;
         for (std::size_t step = 0; step < length; ++step) {
-            auto const channels = channels_at(window, step);
-            auto const sensors = std::span{channels}.first<sensor_count>();
+            auto const channels = channels_at(base.config().channels, window, step);
+            auto const sensors = std::span{channels}.first(inputs);
             pairs.inputs.insert(pairs.inputs.end(), sensors.begin(), sensors.end());
             pairs.inputs.insert(pairs.inputs.end(), state.hidden.begin(), state.hidden.begin() + genome.hidden_count());
             pairs.inputs.push_back(1.0);
-            for (std::size_t e = 0; e < effector_count; ++e) pairs.targets[e].push_back(channels[sensor_count + e]);
-            std::array<float, effector_count> unused;
+            for (std::size_t e = 0; e < outputs; ++e) pairs.targets[e].push_back(channels[inputs + e]);
             if (hidden > 0) tick(network, sensors, state, unused);
         }
     }
@@ -134,9 +139,10 @@ Pairs replay(KnowledgeBase const& base, std::vector<int> const& features, Genome
 
 /// Calls f(gene, place among the effector's parameters) for every gene that its neuron has.
 void for_each_gene(Genome& genome, std::size_t effector, auto const& f) {
+    Interface const interface = genome.interface;
     for (Edge& edge : genome.edges)
-        if (edge.target == first_output + effector)
-            f(edge.weight, edge.source < sensor_count ? edge.source : edge.source - effector_count);
+        if (edge.target == interface.first_output() + effector)
+            f(edge.weight, edge.source < interface.inputs ? edge.source : edge.source - interface.outputs);
 }
 
 /// Fits the effector's neuron and returns the parameters that its genes mean.
@@ -176,10 +182,19 @@ void add(EffectorFit& sum, EffectorFit const& one, int count) {
 
 }   // namespace
 
+int most_cloned_hidden(Channels const& channels) {
+    if (channels.count() == 0) return 0;
+    int const left = most_edges - channels.sensors() * channels.effectors();
+    return std::clamp(left / channels.count(), 0, most_hidden);
+}
+
 Clones clone(KnowledgeBase const& base, CloneConfig const& config, std::function<void(int)> const& observer) {
     check(base, config);
     FeatureLottery const lottery{base.values()};
+    auto const effectors = static_cast<std::size_t>(base.config().channels.effectors());
     Clones clones;
+    clones.fit.resize(effectors);
+    clones.constant.resize(effectors);
     clones.all_alike = lottery.all_alike();
     for (int i = 0; i < config.count; ++i) {
         Stream rng{config.seed, Purpose::clone, 0, static_cast<std::uint32_t>(i)};
@@ -187,7 +202,7 @@ Clones clone(KnowledgeBase const& base, CloneConfig const& config, std::function
         for (int& feature : features) feature = lottery.draw(rng);
         Genome genome = unfitted(base, features, config.hidden, rng);
         Pairs const pairs = replay(base, features, genome);
-        for (std::size_t e = 0; e < effector_count; ++e) {
+        for (std::size_t e = 0; e < effectors; ++e) {
             std::vector<double> const theta = fit(genome, e, pairs.of(e));
             add(clones.fit[e], measure(pairs.of(e), theta), config.count);
             add(clones.constant[e], measure_constant(pairs.targets[e]), config.count);

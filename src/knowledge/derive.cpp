@@ -42,7 +42,7 @@ EvidenceArrays evidence_of(Evidence const& all, std::vector<int> const& features
     };
     kept.gammas = all.gammas;
     kept.has_credit = all.has_credit;
-    kept.success_balls = all.success_balls;
+    kept.success_reward = all.success_reward;
     kept.successes = all.successes;
     kept.failures = all.failures;
     take(kept.showings, all.showings);
@@ -130,6 +130,9 @@ KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase 
                              fmt::format("their windows have {} and {} steps", base.config().window_length,
                                          other.config().window_length),
                              "Build them with one window length.");
+        if (std::string const reason = why_misfit(other.config().channels, base.config().channels); !reason.empty())
+            throw UsageError("the knowledge bases cannot be compared", "one was " + reason,
+                             "Take bases of worlds with the same channels.");
         auto const index = make_exact_index(base.config());
         for (int i = 0; i < other.size(); ++i) index->add(other.window(i));
         auto const search = index->search();

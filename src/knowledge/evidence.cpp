@@ -12,22 +12,22 @@ Evidence view(EvidenceArrays const& arrays) {
             arrays.has_credit,
             arrays.news,
             arrays.gain_sums,
-            arrays.success_balls,
+            arrays.success_reward,
             arrays.successes,
             arrays.failures,
             arrays.successes_that_showed,
             arrays.failures_that_showed};
 }
 
-std::vector<double> discounted_returns(std::span<int const> deliveries, double gamma, int window_length,
+std::vector<double> discounted_returns(std::span<Reward const> rewards, double gamma, int window_length,
                                        std::size_t windows) {
     std::vector<double> returns(windows, 0.0);
-    if (deliveries.empty()) return returns;
+    if (rewards.empty()) return returns;
     double now = 0;
-    std::size_t left = deliveries.size();
-    for (int step = deliveries.back(); step >= 0; --step) {
+    std::size_t left = rewards.size();
+    for (int step = rewards.back().step; step >= 0; --step) {
         now *= gamma;
-        for (; left > 0 && deliveries[left - 1] == step; --left) now += 1;
+        for (; left > 0 && rewards[left - 1].step == step; --left) now += static_cast<double>(rewards[left - 1].amount);
         std::size_t const window = static_cast<std::size_t>(step / window_length);
         if (step % window_length == 0 && window < windows) returns[window] = now;
     }
@@ -46,7 +46,7 @@ void EvidenceGatherer::add_feature() {
         gain_sums_.push_back(0);
         last_shown_by_.push_back(0);
     }
-    if (config_.success_balls > 0) {
+    if (config_.success_reward) {
         in_all_.push_back({});
         in_era_.push_back({});
     }
@@ -54,15 +54,15 @@ void EvidenceGatherer::add_feature() {
 
 void EvidenceGatherer::begin(Exhibit const& exhibit) {
     ++individual_;
-    balls_ = exhibit.balls;
-    has_returned_ = !exhibit.deliveries.empty();
+    reward_ = exhibit.reward;
+    has_returned_ = !exhibit.rewards.empty();
     shown_.clear();
     if (has_returned_)
         for (std::size_t i = 0; i < config_.gammas.size(); ++i)
             returns_[i] =
-                discounted_returns(exhibit.deliveries, config_.gammas[i], window_length_, exhibit.windows.size());
+                discounted_returns(exhibit.rewards, config_.gammas[i], window_length_, exhibit.windows.size());
     int const era = static_cast<int>(exhibit.generation) / generations_per_era;
-    if (config_.success_balls > 0 && era != era_) end_era();
+    if (config_.success_reward && era != era_) end_era();
     era_ = era;
 }
 
@@ -72,12 +72,12 @@ void EvidenceGatherer::show(int feature, std::size_t window, bool first) {
     if (has_returned_)
         for (std::size_t gamma = 0; gamma < config_.gammas.size(); ++gamma)
             return_sums_[gamma][i] += returns_[gamma][window];
-    if (first && (config_.credit || config_.success_balls > 0)) shown_.push_back(feature);
+    if (first && (config_.credit || config_.success_reward)) shown_.push_back(feature);
 }
 
 void EvidenceGatherer::end() {
     if (config_.credit) credit_child();
-    if (config_.success_balls > 0) count_in_era();
+    if (config_.success_reward) count_in_era();
 }
 
 /// This individual is the parent of the one before it.
@@ -87,14 +87,14 @@ void EvidenceGatherer::credit_child() {
         auto const i = static_cast<std::size_t>(feature);
         if (last_shown_by_[i] == individual_) continue;
         ++news_[i];
-        gain_sums_[i] += child_balls_ - balls_;
+        gain_sums_[i] += child_reward_ - reward_;
     }
     shown_by_child_ = shown_;
-    child_balls_ = balls_;
+    child_reward_ = reward_;
 }
 
 void EvidenceGatherer::count_in_era() {
-    bool const succeeds = balls_ >= config_.success_balls;
+    bool const succeeds = reward_ >= *config_.success_reward;
     ++(succeeds ? era_all_.successes : era_all_.failures);
     for (int const feature : shown_) {
         auto& counts = in_era_[static_cast<std::size_t>(feature)];
@@ -132,7 +132,7 @@ EvidenceArrays EvidenceGatherer::finish() && {
     arrays.has_credit = config_.credit;
     arrays.news = std::move(news_);
     arrays.gain_sums = std::move(gain_sums_);
-    arrays.success_balls = static_cast<std::uint32_t>(config_.success_balls);
+    arrays.success_reward = config_.success_reward;
     arrays.successes = successes_;
     arrays.failures = failures_;
     for (Counts const& counts : in_all_) {

@@ -27,19 +27,19 @@ private:
     EvidenceConfig config_;
     int window_length_;
     std::uint64_t individual_ = 0;   ///< numbered from 1
-    double balls_ = 0;
+    double reward_ = 0;
     std::vector<int> shown_;   ///< by this individual, each once
 
     std::vector<std::uint64_t> showings_;
     std::vector<std::vector<double>> return_sums_;   ///< [gamma][feature]
     std::vector<std::vector<double>> returns_;       ///< [gamma][window] of this individual
-    bool has_returned_ = false;                      ///< this individual has delivered something
+    bool has_returned_ = false;                      ///< this individual has got a reward
 
     std::vector<std::uint32_t> news_;
     std::vector<double> gain_sums_;
     std::vector<std::uint64_t> last_shown_by_;
     std::vector<int> shown_by_child_;
-    double child_balls_ = 0;
+    double child_reward_ = 0;
 
     std::vector<Counts> in_all_, in_era_;   ///< [feature]
     std::vector<int> touched_;              ///< features with counts in this era

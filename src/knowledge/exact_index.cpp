@@ -1,4 +1,5 @@
 #include "exact_kernel.h"
+#include "exact_shape.h"
 #include "exact_tables.h"
 #include "pattern_cache.h"
 
@@ -6,32 +7,22 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstring>
 #include <optional>
 
-// Three bounds let the exact index compute few distances. All follow from the configuration and the channels' kinds.
+// exact_shape.h has the bounds. How they are used depends on the set.
 //
-// 1. The squared distance is at least the number of differing bits, in float too: the sum of squares is not negative
-//    and the number of bits is added last. So a match differs in at most D bits, D the largest number below the squared
-//    threshold (3 for the paper's).
-// 2. Cut the bits into D + 1 blocks: two windows that differ in at most D bits agree in at least one block. A hash
-//    table per block finds all windows that agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to
-//    block i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks
-//    of whole channels, which change seldom, or of neighboring steps. Blocks of a few bits select nothing; then one
-//    bucket holds all features.
-// 3. The sum of squares over n steps is at least n times the square of the means' difference. Sums of each channel over
-//    each half, scaled and rounded to integers, bound the continuous part from below.
+// While it grows, which is when a knowledge base is built, a search may use what it has found: buckets are visited from
+// the smallest to the largest, and after k of them a feature that has not been seen differs in at least k bits, so that
+// a match at a smaller distance ends the search; and bounds 1 and 3 shrink with the distance. Most of a bucket is
+// passed over by keys: bound 3 for sums over all steps, which fit into 8 bytes together with the number of set bits.
 //
-// Bound 3 is rounded three times, and the index leaves room for each: the distance in float is off by at most
-// (C T / 16 + 10) 2^-24 of itself, C continuous channels; a sum of n values by n 2^-24 of n; the integers by a half
-// each.
+// In a final set the features within reach of a pattern are remembered: windows of one run keep repeating the same
+// patterns (85 of 100 in an evolved population).
 //
-// While the set grows, which is when a knowledge base is built, a search may also use what it has found: buckets are
-// visited from the smallest to the largest, and after k of them a feature that has not been seen differs in at least k
-// bits, so that a match at a smaller distance ends the search; and bounds 1 and 3 shrink with the distance. Most of a
-// bucket is passed over by bound 3 for sums over the whole window, which fit into 8 bytes together with the number of
-// set bits.
+// Where bits tell features not or hardly apart, as in a world whose channels are continuous, neither helps. Then all
+// keys are read from the start to the end, which takes a nanosecond each or less. Once the set is final they lie in
+// falling order of worth, so that a question for features above some worth reads the first of them alone.
 
 namespace lore {
 
@@ -46,126 +37,99 @@ namespace {
 using exact::Candidate;
 using exact::Digest;
 using exact::FixedView;
-using exact::GrowingView;
+using exact::Key;
+using exact::KeyedView;
+using exact::Nearest;
 using exact::PatternCache;
 using exact::Query;
-
-constexpr int fewest_block_bits = 12;   ///< a table of 2^12 slots still tells a KB of 24 000 features apart
-
-int most_differing_bits(KnowledgeConfig const& config) {
-    double const below = std::ceil(static_cast<double>(config.squared_threshold())) - 1;
-    return static_cast<int>(std::clamp(below, 0.0, static_cast<double>(config.window_length) * binary_count));
-}
-
-/// For `numbers` sums over `steps` steps each. With x the distance of the sums before rounding and s what rounding can
-/// add, the bound is (x + s)^2, which never exceeds (1 + e) x^2 + (1 + 1/e) s^2; with this e it is hardly looser.
-exact::SumBound bound_of_sums(int steps, int numbers) {
-    constexpr double e = 0.05;
-    double const rounding = 0.5 + steps * 0x1p-15;   // of one number, sum and quantization
-    double const slack = 2 * rounding * std::sqrt(static_cast<double>(numbers));
-    double const scale = static_cast<double>(exact::summary_scale) * exact::summary_scale / steps;
-    return {static_cast<float>((1 + e) * scale), static_cast<float>((1 + 1 / e) * slack * slack + 1)};
-}
-
-exact::Shape shape_of(KnowledgeConfig const& config) {
-    exact::Shape shape{};
-    int const bits = config.window_length * binary_count;
-    shape.window_length = config.window_length;
-    shape.words = (bits + 63) / 64;
-    shape.first_half = (config.window_length + 1) / 2;
-    int const halves[2]{shape.first_half, config.window_length - shape.first_half};
-    for (int half = 0; half < 2; ++half)
-        shape.scales[half] = halves[half] == 0
-                                 ? 0.0f
-                                 : static_cast<float>(exact::summary_scale /
-                                                      std::sqrt(static_cast<double>(shape.first_half) * halves[half]));
-    shape.most_differing = most_differing_bits(config);
-    shape.tables = bits / (shape.most_differing + 1) >= fewest_block_bits ? shape.most_differing + 1 : 1;
-    shape.squared_threshold = config.squared_threshold();
-    shape.relative_error = static_cast<float>((continuous_count * config.window_length / 16.0 + 10) * 0x1p-23);
-    shape.key_scale = static_cast<float>(exact::summary_scale) / static_cast<float>(config.window_length);
-    shape.summary_bound = bound_of_sums(shape.first_half, exact::summary_size);
-    shape.key_bound = bound_of_sums(config.window_length, exact::key_size);
-    return shape;
-}
-
-std::vector<std::uint64_t> masks_of(exact::Shape const& shape) {
-    std::vector<std::uint64_t> masks(static_cast<std::size_t>(shape.tables * shape.words), 0);
-    bool const everything_in_one_chain = shape.tables != shape.most_differing + 1;
-    if (everything_in_one_chain) return masks;
-    for (int bit = 0; bit < shape.window_length * binary_count; ++bit)
-        masks[static_cast<std::size_t>(bit % shape.tables * shape.words + bit / 64)] |= std::uint64_t{1} << (bit % 64);
-    return masks;
-}
-
-/// limits[d]: the largest squared distance of two summaries whose windows match and differ in d bits.
-std::vector<std::int32_t> limits_of(exact::Shape const& shape) {
-    std::vector<std::int32_t> limits;
-    for (int differing = 0; differing <= shape.most_differing; ++differing)
-        limits.push_back(shape.summary_bound.largest(shape.squared_threshold * (1 + shape.relative_error) -
-                                                     static_cast<float>(differing)));
-    return limits;
-}
 
 class ExactIndex : public FeatureIndex {
 public:
     explicit ExactIndex(KnowledgeConfig const& config)
-        : shape_(shape_of(config)), masks_(masks_of(shape_)), limits_(limits_of(shape_)),
-          kernel_(exact::kernel_of(active_isa())), records_(shape_.words),
+        : channels_(config.channels), shape_(exact::shape_of(config)), masks_(exact::masks_of(shape_)),
+          limits_(exact::limits_of(shape_)), kernel_(exact::kernel_of(active_isa())), records_(shape_.words),
           growing_(std::in_place, shape_.tables, masks_) {}
 
     void add(Window const& window) override;
     int size() const override { return static_cast<int>(records_.count()); }
     FeatureWindows release() override { return std::move(features_); }
     std::unique_ptr<FeatureSearch> search() const override;
-    void set_values(std::span<double const> values) override {
-        assert(values.size() == records_.count());
-        worth_.assign(values.begin(), values.end());
-        if (final()) return;
-        growing_.reset();
-        fixed_.emplace(shape_.tables, masks_, records_);
-    }
+    void set_values(std::span<double const>) override;
 
     exact::Shape const& shape() const { return shape_; }
     exact::Kernel const& kernel() const { return kernel_; }
     /// What the features are worth; known once the set is final.
     std::span<double const> worth() const { return worth_; }
-    bool final() const { return fixed_.has_value(); }
-    /// Precondition: not final.
-    GrowingView growing() const {
-        return {shape_, growing_->view(), growing_->keys(), growing_->numbers(), records_[0], features_.values.data()};
+    bool final() const { return !growing_; }
+    /// Whether a final set has ranked keys instead of tables.
+    bool ranked() const { return ranked_.has_value(); }
+    /// Precondition: not final, or ranked.
+    KeyedView keyed() const {
+        float const* const values = features_.values.data();
+        return ranked_
+                   ? KeyedView{shape_, {}, ranked_->keys(), ranked_->numbers(), records_[0], values}
+                   : KeyedView{shape_, growing_->view(), growing_->keys(), growing_->numbers(), records_[0], values};
     }
-    std::size_t largest_bucket() const { return growing_->largest_bucket(); }
-    /// Precondition: final.
+    std::size_t largest_bucket() const { return ranked_ ? records_.count() : growing_->largest_bucket(); }
+    /// Precondition: ranked.
+    std::int32_t const* ranks() const { return ranked_->numbers(); }
+    /// Precondition: final and not ranked.
     FixedView fixed() const {
         return {shape_, fixed_->view(), fixed_->records(), features_.values.data(), limits_.data()};
     }
 
 private:
+    void rank();
+
+    Channels channels_;
     exact::Shape shape_;
     std::vector<std::uint64_t> masks_;
     std::vector<std::int32_t> limits_;
     exact::Kernel kernel_;
     exact::Records records_;
     std::optional<exact::GrowingTables> growing_;   ///< until the set is final
-    std::optional<exact::FixedTables> fixed_;       ///< from then on
+    std::optional<exact::FixedTables> fixed_;       ///< from then on, or
+    std::optional<exact::RankedKeys> ranked_;
     FeatureWindows features_;
     std::vector<double> worth_;
 };
 
 void ExactIndex::add(Window const& window) {
-    assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length) && !final());
+    assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length * shape_.step_words));
+    assert(window.values.size() == static_cast<std::size_t>(shape_.window_length * shape_.continuous) && !final());
     Digest digest{{}, size()};
-    features_.add(window);
+    features_.add(channels_, window);
     std::uint64_t* const record = records_.add();
     kernel_.pack(shape_, window.bits.data(), record);
-    exact::Key const key = kernel_.summarize_with_key(shape_, record, window.values.data(), digest);
+    Key const key = kernel_.summarize_with_key(shape_, record, window.values.data(), digest);
     std::memcpy(record + shape_.words, &digest, sizeof digest);
     growing_->add(records_, key);
 }
 
-/// Windows of one run keep repeating the same patterns (85 of 100 in an evolved population), so the features within
-/// reach of a pattern are remembered, from the moment when the set of features is final.
+void ExactIndex::set_values(std::span<double const> values) {
+    assert(values.size() == records_.count());
+    worth_.assign(values.begin(), values.end());
+    if (!final()) {
+        growing_.reset();
+        if (shape_.hashes) fixed_.emplace(shape_.tables, masks_, records_);
+        bool const tells_apart = fixed_ && fixed_->usual_visits() <= static_cast<double>(records_.count());
+        if (!tells_apart) fixed_.reset();
+    }
+    if (!fixed_) rank();
+}
+
+void ExactIndex::rank() {
+    std::vector<Key> keys;
+    keys.reserve(records_.count());
+    auto const floats = static_cast<std::size_t>(shape_.window_length * shape_.continuous);
+    for (std::size_t feature = 0; feature < records_.count(); ++feature) {
+        Digest unused;
+        keys.push_back(
+            kernel_.summarize_with_key(shape_, records_[feature], features_.values.data() + feature * floats, unused));
+    }
+    ranked_.emplace(keys, worth_);
+}
+
 class ExactSearch : public FeatureSearch {
 public:
     explicit ExactSearch(ExactIndex const& index)
@@ -173,10 +137,12 @@ public:
 
     Match match(Window const& window) override {
         if (!index_.final()) return closest(window);
+        if (index_.ranked()) return closest_ranked(window, index_.worth().size());
         return match(window, reachable(window.bits));
     }
 
     Match match_above(Window const& window, double least) override {
+        if (index_.ranked()) return closest_ranked(window, worth_more(least));
         std::span<Candidate const> const candidates = reachable(window.bits);
         // They are in falling order of worth. Is there any above `least` that may be near enough to matter?
         auto const end = std::partition_point(candidates.begin(), candidates.end(),
@@ -186,6 +152,11 @@ public:
     }
 
     bool may_match_above(std::span<std::uint16_t const> bits, double least) override {
+        if (index_.ranked()) {
+            index_.kernel().pack(index_.shape(), bits.data(), words_.data());
+            return index_.kernel().any_within(index_.keyed(), words_.data(),
+                                              {0, static_cast<std::uint32_t>(worth_more(least))});
+        }
         std::span<Candidate const> const candidates = reachable(bits);
         return !candidates.empty() && worth(candidates.front()) > least;
     }
@@ -195,21 +166,52 @@ private:
         return index_.worth()[static_cast<std::size_t>(candidate.digest.feature)];
     }
 
-    Match closest(Window const& window) {
+    /// How many of a ranked set, from the first, are worth more.
+    std::size_t worth_more(double least) const {
+        std::span<double const> const worth = index_.worth();
+        std::int32_t const* const ranks = index_.ranks();
+        return static_cast<std::size_t>(std::partition_point(ranks, ranks + worth.size(),
+                                                             [&](std::int32_t feature) {
+                                                                 return worth[static_cast<std::size_t>(feature)] >
+                                                                        least;
+                                                             }) -
+                                        ranks);
+    }
+
+    /// Fills in words_ and digest_ and returns the key.
+    Key read(Window const& window) {
         exact::Kernel const& kernel = index_.kernel();
         kernel.pack(index_.shape(), window.bits.data(), words_.data());
-        Digest digest{};
-        exact::Key const key = kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest);
-        visits_.resize(static_cast<std::size_t>(index_.shape().tables));
         std::size_t const room = index_.largest_bucket() + exact::spare_numbers;
         if (numbers_.size() < room) numbers_.resize(room * 2);
-        return result(kernel.closest(index_.growing(), {words_.data(), window.values.data()}, digest, key,
-                                     {visits_.data(), numbers_.data(), recent_.data()}));
+        return kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest_);
+    }
+
+    Match closest(Window const& window) {
+        Key const key = read(window);
+        visits_.resize(static_cast<std::size_t>(index_.shape().tables));
+        return result(index_.kernel().closest(index_.keyed(), {words_.data(), window.values.data()}, digest_, key,
+                                              {visits_.data(), numbers_.data(), recent_.data()}));
+    }
+
+    /// The nearest of a ranked set, unless none of the first `first` is a match.
+    Match closest_ranked(Window const& window, std::size_t first) {
+        if (first == 0) return {};
+        Key const key = read(window);
+        auto const among = [&](std::size_t from, std::size_t to, Nearest const& best) {
+            return index_.kernel().closest_among(
+                index_.keyed(), {words_.data(), window.values.data()}, digest_, key,
+                {nullptr, numbers_.data(), nullptr},
+                {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)}, best);
+        };
+        Nearest const best = among(0, first, {-1, index_.shape().squared_threshold});
+        return result(best.feature < 0 ? best : among(first, index_.worth().size(), best));
     }
 
     /// All within reach of the bits, in falling order of worth.
     std::span<Candidate const> reachable(std::span<std::uint16_t const> bits) {
-        assert(index_.final() && bits.size() == static_cast<std::size_t>(index_.shape().window_length));
+        assert(index_.final() &&
+               bits.size() == static_cast<std::size_t>(index_.shape().window_length * index_.shape().step_words));
         index_.kernel().pack(index_.shape(), bits.data(), words_.data());
         if (PatternCache::List const* const known = cache_.find(words_.data())) return cache_.candidates(*known);
         std::span<Candidate> found = look_up();
@@ -247,15 +249,16 @@ private:
         return result(kernel.nearest(view, query, promising_.data(), kept));
     }
 
-    static Match result(exact::Nearest const& nearest) {
+    static Match result(Nearest const& nearest) {
         return nearest.feature < 0 ? Match{} : Match{nearest.feature, nearest.squared_distance};
     }
 
     ExactIndex const& index_;
     std::vector<std::uint64_t> words_;
     PatternCache cache_;
-    std::vector<Candidate> found_, promising_;   // of the final set
-    std::vector<exact::Visit> visits_;           // of the growing set, as is what follows
+    std::vector<Candidate> found_, promising_;   // of a final set with tables
+    Digest digest_{};                            // of a set with keys, as is what follows
+    std::vector<exact::Visit> visits_;
     std::vector<std::int32_t> numbers_;
     std::vector<std::int32_t> recent_ = std::vector<std::int32_t>(std::size_t{1} << exact::recent_bits, -1);
 };

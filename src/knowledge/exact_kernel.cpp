@@ -1,5 +1,6 @@
 #include "exact_kernel.h"
 #include "exact_hash.h"
+#include "exact_window.h"
 
 #include <lore/core/lanes.h>
 
@@ -9,97 +10,31 @@ namespace {
 
 constexpr int partial_sums = 16;   // of the definition, knowledge/window.h
 
-/// The binary channels of four steps, 36 bits.
-LORE_INLINE std::uint64_t four_steps(std::uint16_t const* bits) {
-    constexpr std::uint64_t channels = (1u << binary_count) - 1;
-#if defined(__BMI2__)
-    return _pext_u64(lanes::load<std::uint64_t>(bits), channels * 0x0001000100010001u);
-#else
-    return (bits[0] & channels) | (bits[1] & channels) << binary_count | (bits[2] & channels) << 2 * binary_count |
-           (bits[3] & channels) << 3 * binary_count;
-#endif
-}
-
-void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) {
-    for (int word = 0; word < shape.words; ++word) words[word] = 0;
-    auto const place = [&](std::uint64_t pattern, int step, int size) {
-        int const at = step * binary_count;
-        words[at / 64] |= pattern << (at % 64);
-        if (at % 64 + size > 64) words[at / 64 + 1] |= pattern >> (64 - at % 64);
-    };
-    int step = 0;
-    for (; step + 4 <= shape.window_length; step += 4) place(four_steps(bits + step), step, 4 * binary_count);
-    for (; step < shape.window_length; ++step) place(bits[step] & ((1u << binary_count) - 1), step, binary_count);
-}
-
-/// The sums of each continuous channel over steps [first, last).
-LORE_INLINE void add_up(float const* values, int first, int last, float (&sums)[continuous_count]) {
-    using Four = Lanes<float, 4>;
-    static_assert(continuous_count >= 4, "sums are taken four channels at a time");
-    constexpr int parts = (continuous_count + 3) / 4;   // the last may overlap the one before
-    auto const start = [](int part) { return 4 * part + 4 < continuous_count ? 4 * part : continuous_count - 4; };
-    Four part_sums[parts]{};
-    for (int step = first; step < last; ++step)
-        for (int part = 0; part < parts; ++part)
-            part_sums[part] += lanes::load<Four>(values + step * continuous_count + start(part));
-    for (int part = 0; part < parts; ++part) lanes::store(sums + start(part), part_sums[part]);
-}
-
-/// A value outside 0 .. 1 moves to the edge, which only brings two windows nearer to each other.
-LORE_INLINE std::uint8_t quantized(float sum, float scale) {
-    float number = sum * scale + 0.5f;
-    number = number > 0 ? number : 0;
-    number = number < summary_scale ? number : static_cast<float>(summary_scale);
-    return static_cast<std::uint8_t>(number);
-}
-
-LORE_INLINE void add_up_halves(Shape const& shape, float const* values, float (&sums)[2][continuous_count]) {
-    add_up(values, 0, shape.first_half, sums[0]);
-    add_up(values, shape.first_half, shape.window_length, sums[1]);
-}
-
-LORE_INLINE void put_summary(Shape const& shape, float const (&sums)[2][continuous_count], Digest& digest) {
-    for (int half = 0; half < 2; ++half)
-        for (int channel = 0; channel < continuous_count; ++channel)
-            digest.summary[half * continuous_count + channel] = quantized(sums[half][channel], shape.scales[half]);
-}
+void pack(Shape const& shape, std::uint16_t const* bits, std::uint64_t* words) { pack_window(shape, bits, words); }
 
 void summarize(Shape const& shape, float const* values, Digest& digest) {
-    float sums[2][continuous_count];
-    add_up_halves(shape, values, sums);
+    Sums sums;
+    add_up(shape, values, sums);
     put_summary(shape, sums, digest);
 }
 
 Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float const* values, Digest& digest) {
-    float sums[2][continuous_count];
-    add_up_halves(shape, values, sums);
+    Sums sums;
+    add_up(shape, values, sums);
     put_summary(shape, sums, digest);
-    Key key{};
-    for (int channel = 0; channel < key_size; ++channel)
-        key.sums[channel] = quantized(sums[0][channel] + sums[1][channel], shape.key_scale);
-    int ones = 0;
-    for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
-    key.ones = static_cast<std::uint8_t>(ones < 255 ? ones : 255);
-    return key;
+    return key_of(shape, words, sums);
 }
 
 /// The sum of the squared differences of two summaries.
 LORE_INLINE std::int32_t summary_distance(Digest const& a, Digest const& b) {
 #if defined(__SSE2__)
-    __m128i sum = _mm_setzero_si128();
-    for (int v = 0; v < Digest::vectors; ++v) {
-        __m128i from_a = _mm_loadu_si128(reinterpret_cast<__m128i const*>(&a) + v);
-        __m128i from_b = _mm_loadu_si128(reinterpret_cast<__m128i const*>(&b) + v);
-        if (v == Digest::vectors - 1) {
-            __m128i const numbers = _mm_set_epi32(0, -1, -1, -1);   // not the feature's number behind them
-            from_a = _mm_and_si128(numbers, from_a);
-            from_b = _mm_and_si128(numbers, from_b);
-        }
-        __m128i const difference = _mm_or_si128(_mm_subs_epu8(from_a, from_b), _mm_subs_epu8(from_b, from_a));
-        __m128i const low = _mm_unpacklo_epi8(difference, _mm_setzero_si128());
-        __m128i const high = _mm_unpackhi_epi8(difference, _mm_setzero_si128());
-        sum = _mm_add_epi32(sum, _mm_add_epi32(_mm_madd_epi16(low, low), _mm_madd_epi16(high, high)));
-    }
+    __m128i const numbers = _mm_set_epi32(0, -1, -1, -1);   // not the feature's number behind them
+    __m128i const from_a = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&a)));
+    __m128i const from_b = _mm_and_si128(numbers, _mm_loadu_si128(reinterpret_cast<__m128i const*>(&b)));
+    __m128i const difference = _mm_or_si128(_mm_subs_epu8(from_a, from_b), _mm_subs_epu8(from_b, from_a));
+    __m128i const low = _mm_unpacklo_epi8(difference, _mm_setzero_si128());
+    __m128i const high = _mm_unpackhi_epi8(difference, _mm_setzero_si128());
+    __m128i sum = _mm_add_epi32(_mm_madd_epi16(low, low), _mm_madd_epi16(high, high));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0x4e));
     sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0xb1));
     return _mm_cvtsi128_si32(sum);
@@ -209,9 +144,13 @@ LORE_INLINE int near_keys(Key const* keys, std::int32_t const* numbers, int coun
     return found;
 }
 
-/// One question to a growing set. As the search goes on, the best so far leaves less and less room for a better one.
-struct GrowingSearch {
-    GrowingView const& view;
+/// Keys of one bucket that are looked through before what was found among them is compared, where one bucket holds all.
+constexpr std::uint32_t keys_at_once = 2048;
+
+/// One question to a set by its keys. As the search goes on, the best so far leaves less and less room for a better
+/// one.
+struct KeyedSearch {
+    KeyedView const& view;
     Query const& query;
     Digest const& summary;
     Key const& key;
@@ -219,7 +158,7 @@ struct GrowingSearch {
     Nearest best;
 
     LORE_INLINE Shape const& shape() const { return view.shape; }
-    LORE_INLINE int value_count() const { return shape().window_length * continuous_count; }
+    LORE_INLINE int value_count() const { return shape().window_length * shape().continuous; }
     LORE_INLINE std::uint64_t const* record_of(std::int32_t feature) const {
         return view.records + static_cast<std::size_t>(feature) * static_cast<std::size_t>(record_size(shape().words));
     }
@@ -277,10 +216,9 @@ struct GrowingSearch {
         return false;
     }
 
-    /// Writes the features of a bucket that may be better to scratch.numbers, and returns how many. `visit` buckets
+    /// Writes the features of a bucket that may be better to scratch.numbers, and returns how many. `visits` buckets
     /// were seen before.
-    LORE_INLINE int sift(int visit) {
-        Bucket const bucket = scratch.visits[visit].bucket;
+    LORE_INLINE int sift(Bucket bucket, int visits) {
         int const count =
             near_keys(view.keys + bucket.start, view.numbers + bucket.start, static_cast<int>(bucket.count), key,
                       most_bits(), shape().key_bound.largest(left(0)), scratch.numbers);
@@ -289,7 +227,7 @@ struct GrowingSearch {
         for (int i = 0; i < count; ++i) {
             std::uint64_t const* const record = record_of(scratch.numbers[i]);
             int const differing = differing_bits(record);
-            if (differing > most_bits() || shares_a_block(record, visit)) continue;
+            if (differing > most_bits() || shares_a_block(record, visits)) continue;
             Digest digest;
             std::memcpy(&digest, record + shape().words, sizeof digest);
             if (summary_distance(summary, digest) > shape().summary_bound.largest(left(differing))) continue;
@@ -299,22 +237,69 @@ struct GrowingSearch {
         }
         return kept;
     }
+
+    LORE_INLINE void look_through(Bucket bucket, int visits) {
+        int const kept = sift(bucket, visits);
+        for (int i = 0; i < kept; ++i) compare(scratch.numbers[i]);
+    }
+    /// The same by shares, the first of which find something that shortens the others.
+    LORE_INLINE void look_through_shares(Bucket bucket) {
+        while (bucket.count > 0) {
+            Bucket const share{bucket.start, bucket.count < keys_at_once ? bucket.count : keys_at_once};
+            look_through(share, 0);
+            bucket.start += share.count;
+            bucket.count -= share.count;
+        }
+    }
+
+    LORE_INLINE void look_through_tables() {
+        for (int visit = 0; visit < shape().tables; ++visit) {
+            // A feature in none of the buckets seen so far differs in a bit of each of their blocks.
+            if (best.squared_distance < static_cast<float>(visit)) break;
+            look_through(scratch.visits[visit].bucket, visit);
+        }
+    }
+
+    /// The place in scratch.recent. Windows whose keys agree in their two highest bits are alike.
+    LORE_INLINE std::uint64_t recent_slot() const {
+        std::uint64_t const by_bits = hash_slot(query.words, nullptr, shape().words, recent_bits);
+        if (shape().hashes) return by_bits;
+        std::uint64_t coarse;
+        std::memcpy(&coarse, &key, sizeof coarse);
+        coarse &= 0x00c0c0c0c0c0c0c0u;
+        return by_bits ^ hash_slot(&coarse, nullptr, 1, recent_bits);
+    }
 };
 
-Nearest closest(GrowingView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
+Nearest closest(KeyedView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
     Shape const& shape = view.shape;
-    GrowingSearch search{view, query, summary, key, scratch, {-1, shape.squared_threshold}};
+    KeyedSearch search{view, query, summary, key, scratch, {-1, shape.squared_threshold}};
     search.order_visits();
-    std::int32_t& recent = scratch.recent[hash_slot(query.words, nullptr, shape.words, recent_bits)];
+    std::int32_t& recent = scratch.recent[search.recent_slot()];
     if (recent >= 0) search.compare(recent);
-    for (int visit = 0; visit < shape.tables; ++visit) {
-        // A feature in none of the buckets seen so far differs in a bit of each of their blocks.
-        if (search.best.squared_distance < static_cast<float>(visit)) break;
-        int const kept = search.sift(visit);
-        for (int i = 0; i < kept; ++i) search.compare(scratch.numbers[i]);
-    }
+    if (!shape.hashes) search.look_through_shares(scratch.visits[0].bucket);
+    else search.look_through_tables();
     if (search.best.feature >= 0) recent = search.best.feature;
     return search.best;
+}
+
+Nearest closest_among(KeyedView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch,
+                      Bucket places, Nearest best) {
+    KeyedSearch search{view, query, summary, key, scratch, best};
+    search.look_through_shares(places);
+    return search.best;
+}
+
+bool any_within(KeyedView const& view, std::uint64_t const* words, Bucket places) {
+    int const count = view.shape.words;
+    for (std::uint32_t i = places.start; i < places.start + places.count; ++i) {
+        std::uint64_t const* const record =
+            view.records + static_cast<std::size_t>(view.numbers[i]) * static_cast<std::size_t>(record_size(count));
+        int differing = 0;
+        for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ record[word]);
+        if (differing <= view.shape.most_differing) return true;
+    }
+    return false;
 }
 
 /// FixedWords: the number of words if it is known when compiling, else 0.
@@ -364,7 +349,7 @@ int promising(FixedView const& view, Digest const& window, Candidate const* in, 
         out[kept] = candidate;
         kept += summary_distance(window, candidate.digest) <= view.limits[candidate.differing];
     }
-    std::size_t const value_count = static_cast<std::size_t>(view.shape.window_length) * continuous_count;
+    std::size_t const value_count = static_cast<std::size_t>(view.shape.window_length * view.shape.continuous);
     for (int i = 0; i < kept; ++i) {   // they will be compared in full
         float const* const values = view.values + static_cast<std::size_t>(out[i].digest.feature) * value_count;
         for (std::size_t at = 0; at < value_count; at += 16) __builtin_prefetch(values + at);
@@ -374,7 +359,7 @@ int promising(FixedView const& view, Digest const& window, Candidate const* in, 
 
 Nearest nearest(FixedView const& view, Query const& query, Candidate const* candidates, int count) {
     Nearest best{-1, view.shape.squared_threshold};
-    int const value_count = view.shape.window_length * continuous_count;
+    int const value_count = view.shape.window_length * view.shape.continuous;
     for (int i = 0; i < count; ++i) {
         std::int32_t const feature = candidates[i].digest.feature;
         float const* const values =
@@ -388,6 +373,8 @@ Nearest nearest(FixedView const& view, Query const& query, Candidate const* cand
 
 }   // namespace
 
-Kernel kernel() { return {pack, summarize, summarize_with_key, closest, within, promising, nearest}; }
+Kernel kernel() {
+    return {pack, summarize, summarize_with_key, closest, closest_among, any_within, within, promising, nearest};
+}
 
 }   // namespace lore::exact::LORE_ISA_NAMESPACE

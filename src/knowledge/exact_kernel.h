@@ -1,6 +1,5 @@
 #pragma once
 
-#include <lore/core/channels.h>
 #include <lore/core/isa.h>
 #include <lore/core/lanes.h>
 
@@ -11,11 +10,14 @@
 // pointers only: see core/lanes.h for why.
 namespace lore::exact {
 
-/// A window's summary: the sums of each continuous channel over each half of its steps, quantized.
-inline constexpr int summary_size = 2 * continuous_count;
-inline constexpr int summary_scale = 255;   ///< its largest number
-/// A key's sums: those of the first continuous channels, as many as fit. Fewer give a looser bound, but still a bound.
-inline constexpr int key_size = continuous_count < 7 ? continuous_count : 7;
+/// Numbers of a window's summary, quantized sums of its continuous channels: with up to 12 channels those of each
+/// channel over each of 12 / channels blocks of steps (two halves for six channels), with more those of channel c, over
+/// all steps, in number c mod 12. What is not needed is 0.
+inline constexpr int summary_size = 12;
+inline constexpr int summary_scale = 255;   ///< a summary's largest number
+/// Numbers of a key: the sum of continuous channel c over all steps is in number c mod 7.
+inline constexpr int key_size = 7;
+inline constexpr int most_continuous = 80;   ///< channels: all that a world may have
 
 /// Says how far quantized sums of two windows may lie from each other: at most slope * left + offset, if the squares of
 /// the windows' differences add up to `left`.
@@ -30,29 +32,33 @@ struct SumBound {
 /// What is derived from a configuration once (exact_index.cpp explains the bounds).
 struct Shape {
     int window_length;
-    int words;         ///< 64-bit words that hold the binary channels of a window
-    int first_half;    ///< steps of the first half
-    float scales[2];   ///< of the sums of each half
-    float key_scale;   ///< of the sums of all steps
+    int step_words;                       ///< 16-bit words that hold the bits of a step
+    int binary, continuous;               ///< channels of each kind
+    int words;                            ///< 64-bit words that hold the binary channels of a window
+    int blocks;                           ///< of steps, each with sums of its own
+    int block_starts[summary_size + 1];   ///< steps; block b ends where the next one starts
+    float scales[summary_size];           ///< of a summary's numbers
+    float key_scales[key_size];           ///< of a key's
     int tables;
+    /// Whether the tables hash bits. If these are too few to tell features apart, one bucket holds all.
+    bool hashes;
     int most_differing;   ///< bits
     float squared_threshold;
     float relative_error;   ///< of a squared distance in float
     SumBound summary_bound, key_bound;
 };
 
-/// All that the bounds need of a feature: as few vectors of 16 bytes as hold it, one for the paper's channels.
+/// All that the bounds need of a feature: one vector of 16 bytes.
 struct Digest {
-    static constexpr int vectors = (summary_size + 4 + 15) / 16;
-    std::uint8_t summary[16 * vectors - 4];   ///< 0 beyond summary_size
+    std::uint8_t summary[summary_size];
     std::int32_t feature;
 };
-static_assert(sizeof(Digest) == 16 * Digest::vectors);
+static_assert(sizeof(Digest) == 16);
 
-/// Less, to pass over most features that share their bits with a window without looking at them: the sums of each
-/// continuous channel over all steps, quantized, and how many bits are set (255: so many or more).
+/// Less, to pass over most features that share their bits with a window without looking at them: sums of the continuous
+/// channels over all steps, quantized, and how many bits are set (255: so many or more).
 struct Key {
-    std::uint8_t sums[7];   ///< 0 beyond key_size
+    std::uint8_t sums[key_size];
     std::uint8_t ones;
 };
 static_assert(sizeof(Key) == 8);
@@ -75,14 +81,15 @@ struct Tables {
     int slot_bits;
 };
 
-/// A set of features that still grows, as the kernel reads it. A bucket's places are those of `keys` and `numbers`.
-struct GrowingView {
+/// A set of features by their keys, as the kernel reads it: one that still grows, or a final one in falling order of
+/// worth (RankedKeys). A bucket's places are those of `keys` and `numbers`.
+struct KeyedView {
     Shape shape;
     Tables tables;
     Key const* keys;                ///< [place]
     std::int32_t const* numbers;    ///< [place]: the feature
     std::uint64_t const* records;   ///< [feature][record_size]
-    float const* values;            ///< [feature][step][continuous_count]
+    float const* values;            ///< [feature][step][continuous channel]
 };
 
 /// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
@@ -90,7 +97,7 @@ struct FixedView {
     Shape shape;
     Tables tables;
     std::uint64_t const* records;   ///< [place][record_size]
-    float const* values;            ///< [feature][step][continuous_count]
+    float const* values;            ///< [feature][step][continuous channel]
     std::int32_t const* limits;     ///< [differing bits]: largest summary distance of a match
 };
 
@@ -106,12 +113,13 @@ struct Visit {
     std::int32_t table;
 };
 
-/// Memory that a search in a growing set needs.
+/// Memory that a search by keys needs.
 struct Scratch {
     Visit* visits;           ///< one a table
     std::int32_t* numbers;   ///< room for the largest bucket and spare_numbers more
-    /// [2^recent_bits]: what windows whose bits have this hash matched last, or -1; it is tried first, because the
-    /// nearer a match is that is already known, the less there is to look at.
+    /// [2^recent_bits]: what windows like this one matched last, or -1; it is tried first, because the nearer a match
+    /// is that is already known, the less there is to look at. Alike: their bits, or their keys where bits are not
+    /// hashed, have the same hash.
     std::int32_t* recent;
 };
 inline constexpr int recent_bits = 16;
@@ -135,7 +143,12 @@ struct Kernel {
     /// The same, and the key of a window with this pattern.
     Key (*summarize_with_key)(Shape const&, std::uint64_t const* words, float const* values, Digest&);
     /// The nearest within the threshold; among equals the lowest number.
-    Nearest (*closest)(GrowingView const&, Query const&, Digest const&, Key const&, Scratch);
+    Nearest (*closest)(KeyedView const&, Query const&, Digest const&, Key const&, Scratch);
+    /// The same among some places of a ranked set, if it is nearer than `best`; else `best`.
+    Nearest (*closest_among)(KeyedView const&, Query const&, Digest const&, Key const&, Scratch, Bucket places,
+                             Nearest best);
+    /// Whether the pattern of any of these features differs in few enough bits.
+    bool (*any_within)(KeyedView const&, std::uint64_t const* words, Bucket places);
     /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how
     /// many. `out` has room for all features of all tables and one more.
     int (*within)(FixedView const&, std::uint64_t const* words, Candidate* out);

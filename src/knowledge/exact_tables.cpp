@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <utility>
 
 namespace lore::exact {
@@ -87,7 +88,7 @@ void GrowingTables::double_slots(Records const& records) {
 
 FixedTables::FixedTables(int tables, std::vector<std::uint64_t> const& masks, Records const& records)
     : masks_(&masks), slot_bits_(std::max(8, static_cast<int>(std::bit_width(records.count())))),
-      buckets_(static_cast<std::size_t>(tables) << slot_bits_),
+      features_(records.count()), buckets_(static_cast<std::size_t>(tables) << slot_bits_),
       records_(static_cast<std::size_t>(tables) * records.count() * records.record_words()) {
     int const words = words_of_a_mask(masks, tables);
     auto const each = [&](auto const& visit) {
@@ -105,6 +106,20 @@ FixedTables::FixedTables(int tables, std::vector<std::uint64_t> const& masks, Re
         std::copy_n(record, records.record_words(),
                     records_.data() + (bucket.start + bucket.count++) * records.record_words());
     });
+}
+
+double FixedTables::usual_visits() const {
+    double squares = 0;
+    for (Bucket const& bucket : buckets_) squares += static_cast<double>(bucket.count) * bucket.count;
+    return features_ == 0 ? 0 : squares / static_cast<double>(features_);
+}
+
+RankedKeys::RankedKeys(std::span<Key const> keys, std::span<double const> worth) : numbers_(keys.size()) {
+    std::iota(numbers_.begin(), numbers_.end(), 0);
+    auto const worth_of = [&](std::int32_t feature) { return worth[static_cast<std::size_t>(feature)]; };
+    std::stable_sort(numbers_.begin(), numbers_.end(),
+                     [&](std::int32_t a, std::int32_t b) { return worth_of(a) > worth_of(b); });
+    for (std::int32_t const feature : numbers_) keys_.push_back(keys[static_cast<std::size_t>(feature)]);
 }
 
 }   // namespace lore::exact

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace lore::exact {
@@ -60,12 +61,28 @@ public:
 
     Tables view() const { return {masks_->data(), buckets_.data(), slot_bits_}; }
     std::uint64_t const* records() const { return records_.data(); }
+    /// Records in the buckets of a pattern like those of the set: the mean over its features.
+    double usual_visits() const;
 
 private:
     std::vector<std::uint64_t> const* masks_;
     int slot_bits_;
+    std::size_t features_;
     std::vector<Bucket> buckets_;
     std::vector<std::uint64_t> records_;   ///< [place][record_size]
+};
+
+/// The keys of a final set whose bits tell its features not apart, in falling order of worth, then of numbers.
+class RankedKeys {
+public:
+    /// One of each a feature.
+    RankedKeys(std::span<Key const> keys, std::span<double const> worth);
+    Key const* keys() const { return keys_.data(); }
+    std::int32_t const* numbers() const { return numbers_.data(); }
+
+private:
+    std::vector<Key> keys_;
+    std::vector<std::int32_t> numbers_;
 };
 
 }   // namespace lore::exact

@@ -5,6 +5,7 @@
 // passes this file.
 #include <flann/flann.hpp>
 
+#include <algorithm>
 #include <cassert>
 
 namespace lore {
@@ -17,27 +18,29 @@ constexpr float rebuild_factor = 2.0f;
 constexpr std::size_t rows_per_chunk = 1024;
 
 /// A window as FLANN sees it: all channels of all steps in a row of floats.
-void flatten(Window const& window, float* row) {
-    for (std::size_t step = 0; step < window.bits.size(); ++step) {
-        for (int channel = 0; channel < binary_count; ++channel)
-            *row++ = static_cast<float>(window.bits[step] >> channel & 1);
-        for (int channel = 0; channel < continuous_count; ++channel)
-            *row++ = window.values[step * continuous_count + static_cast<std::size_t>(channel)];
+void flatten(KnowledgeConfig const& config, Window const& window, float* row) {
+    int const words = config.channels.words(), binary = config.channels.binary_count(),
+              continuous = config.channels.continuous_count();
+    std::uint16_t const* bits = window.bits.data();
+    float const* values = window.values.data();
+    for (int step = 0; step < config.window_length; ++step, bits += words, values += continuous) {
+        for (int bit = 0; bit < binary; ++bit) *row++ = static_cast<float>(bits[bit / 16] >> bit % 16 & 1);
+        row = std::copy_n(values, continuous, row);
     }
 }
 
 class FlannIndex : public FeatureIndex {
 public:
     FlannIndex(KnowledgeConfig const& config, int trees, int checks)
-        : config_(config), columns_(static_cast<std::size_t>(config.window_length) * channel_count), trees_(trees),
-          search_(checks) {
+        : config_(config), columns_(static_cast<std::size_t>(config.window_length * config.channels.count())),
+          trees_(trees), search_(checks) {
         search_.cores = 1;
     }
 
     void add(Window const& window) override {
         float* const row = next_row();
-        flatten(window, row);
-        features_.add(window);
+        flatten(config_, window, row);
+        features_.add(config_.channels, window);
         flann::Matrix<float> const point{row, 1, columns_};
         if (forest_ == nullptr) {
             forest_ = std::make_unique<Forest>(point, flann::KDTreeIndexParams{trees_});
@@ -54,7 +57,7 @@ public:
     Match match(Window const& window, std::vector<float>& row) const {
         if (size_ == 0) return {};
         row.resize(columns_);
-        flatten(window, row.data());
+        flatten(config_, window, row.data());
         int neighbor = -1;
         float flann_distance = 0;
         flann::Matrix<float> const query{row.data(), 1, columns_};
@@ -63,7 +66,7 @@ public:
         if (forest_->knnSearch(query, neighbors, distances, 1, search_) < 1 || neighbor < 0 || neighbor >= size_)
             return {};
         // FLANN sums in an order of its own; what counts as a match is decided by our distance.
-        float const distance = squared_distance(window, features_.window(neighbor, config_.window_length));
+        float const distance = squared_distance(config_.channels, window, features_.window(neighbor, config_));
         return distance < config_.squared_threshold() ? Match{neighbor, distance} : Match{};
     }
 

@@ -16,7 +16,7 @@ public:
     explicit ScanIndex(KnowledgeConfig const& config) : config_(config) {}
 
     void add(Window const& window) override {
-        features_.add(window);
+        features_.add(config_.channels, window);
         ++size_;
     }
     int size() const override { return size_; }
@@ -26,7 +26,7 @@ public:
     Match match(Window const& window) const {
         Match nearest;
         for (int feature = 0; feature < size_; ++feature) {
-            float const distance = squared_distance(window, features_.window(feature, config_.window_length));
+            float const distance = squared_distance(config_.channels, window, features_.window(feature, config_));
             if (distance < nearest.squared_distance && distance < config_.squared_threshold())
                 nearest = {feature, distance};
         }
@@ -52,15 +52,22 @@ std::unique_ptr<FeatureSearch> ScanIndex::search() const { return std::make_uniq
 
 }   // namespace
 
-void FeatureWindows::add(Window const& window) {
-    for (std::uint16_t const word : window.bits) bits.push_back(word & window_bits_mask);
+void FeatureWindows::add(Channels const& channels, Window const& window) {
+    std::size_t const first = bits.size();
+    bits.insert(bits.end(), window.bits.begin(), window.bits.end());
+    auto const words = static_cast<std::size_t>(channels.words());
+    for (std::size_t word = 0; word < words; ++word) {
+        std::uint16_t const mask = binary_mask(channels, static_cast<int>(word));
+        for (std::size_t i = first + word; i < bits.size(); i += words) bits[i] &= mask;
+    }
     values.insert(values.end(), window.values.begin(), window.values.end());
 }
 
-Window FeatureWindows::window(int feature, int window_length) const {
-    auto const length = static_cast<std::size_t>(window_length);
-    std::size_t const first = static_cast<std::size_t>(feature) * length;
-    return {{bits.data() + first, length}, {values.data() + first * continuous_count, length * continuous_count}};
+Window FeatureWindows::window(int feature, KnowledgeConfig const& config) const {
+    auto const length = static_cast<std::size_t>(config.window_length), number = static_cast<std::size_t>(feature);
+    std::size_t const words = length * static_cast<std::size_t>(config.channels.words()),
+                      floats = length * static_cast<std::size_t>(config.channels.continuous_count());
+    return {{bits.data() + number * words, words}, {values.data() + number * floats, floats}};
 }
 
 std::string_view name(IndexKind kind) { return index_names[kind]; }

@@ -6,6 +6,15 @@ namespace lore {
 
 namespace {
 
+std::size_t words_of_a_window(KnowledgeConfig const& config) {
+    return static_cast<std::size_t>(config.window_length) * static_cast<std::size_t>(config.channels.words());
+}
+
+std::size_t floats_of_a_window(KnowledgeConfig const& config) {
+    return static_cast<std::size_t>(config.window_length) *
+           static_cast<std::size_t>(config.channels.continuous_count());
+}
+
 KnowledgeBase::Parts owned(KnowledgeConfig const& config, Provenance provenance, KnowledgeArrays arrays) {
     auto const kept = std::make_shared<KnowledgeArrays const>(std::move(arrays));
     return {config, std::move(provenance), kept->bits, kept->windows, kept->values, kept->reward_sums, kept->counts,
@@ -16,9 +25,8 @@ KnowledgeBase::Parts owned(KnowledgeConfig const& config, Provenance provenance,
 
 KnowledgeBase::KnowledgeBase(Parts parts) : parts_(std::move(parts)) {
     [[maybe_unused]] std::size_t const features = parts_.values.size();
-    [[maybe_unused]] auto const length = static_cast<std::size_t>(parts_.config.window_length);
-    assert(parts_.bits.size() == features * length);
-    assert(parts_.windows.size() == features * length * continuous_count);
+    assert(parts_.bits.size() == features * words_of_a_window(parts_.config));
+    assert(parts_.windows.size() == features * floats_of_a_window(parts_.config));
     assert(parts_.reward_sums.size() == features && parts_.counts.size() == features);
     [[maybe_unused]] Evidence const& evidence = parts_.evidence;
     assert(!evidence.has_returns() || evidence.showings.size() == features);
@@ -46,10 +54,9 @@ KnowledgeBase KnowledgeBase::with_values(std::vector<double> values, Provenance 
 
 Window KnowledgeBase::window(int feature) const {
     assert(feature >= 0 && feature < size());
-    auto const length = static_cast<std::size_t>(parts_.config.window_length);
-    std::size_t const first = static_cast<std::size_t>(feature) * length;
-    return {parts_.bits.subspan(first, length),
-            parts_.windows.subspan(first * continuous_count, length * continuous_count)};
+    auto const number = static_cast<std::size_t>(feature);
+    std::size_t const words = words_of_a_window(parts_.config), floats = floats_of_a_window(parts_.config);
+    return {parts_.bits.subspan(number * words, words), parts_.windows.subspan(number * floats, floats)};
 }
 
 }   // namespace lore

@@ -51,16 +51,19 @@ std::span<double const> return_sums(KnowledgeBase const& base, ValueConfig const
     return evidence.return_sums.subspan(static_cast<std::size_t>(found - evidence.gammas.begin()) * features, features);
 }
 
-void check_contrast(Evidence const& evidence, ValueConfig const& config) {
+void check_contrast(KnowledgeBase const& base, ValueConfig const& config) {
+    Evidence const& evidence = base.evidence();
+    std::string const& unit = base.provenance().reward_unit;
     if (!evidence.has_contrast()) refuse_lineage(config);
-    if (config.success_balls > 0 && std::cmp_not_equal(config.success_balls, evidence.success_balls))
+    if (config.success_reward && *config.success_reward != *evidence.success_reward)
         refuse_evidence(
-            config, fmt::format("its successes have {} balls, not {}", evidence.success_balls, config.success_balls),
+            config,
+            fmt::format("its successes have {} {}, not {}", *evidence.success_reward, unit, *config.success_reward),
             "Leave that out, or build it anew with another --success.");
     if (evidence.successes == 0 || evidence.failures == 0)
         refuse_evidence(config,
-                        fmt::format("in no {} generations some individuals delivered {} balls and some fewer",
-                                    generations_per_era, evidence.success_balls),
+                        fmt::format("in no {} generations some individuals got {} {} and some less",
+                                    generations_per_era, *evidence.success_reward, unit),
                         "Build it anew with another --success.");
 }
 
@@ -95,21 +98,20 @@ void check_gamma(double gamma) {
                          "Give one such as 0.995.");
 }
 
-ValueConfig value_config(std::string_view rule, std::optional<double> gamma,
-                         std::optional<std::int64_t> success_balls) {
+ValueConfig value_config(std::string_view rule, std::optional<double> gamma, std::optional<double> success_reward) {
     ValueConfig config;
     config.rule = value_rule(rule);
     if (gamma && config.rule != ValueRule::discounted_return)
         throw UsageError(fmt::format("value rule {} has no gamma", rule), "only return discounts", "Leave it out.");
-    if (success_balls && config.rule != ValueRule::contrast)
+    if (success_reward && config.rule != ValueRule::contrast)
         throw UsageError(fmt::format("value rule {} has no successes", rule), "only contrast counts them",
                          "Leave that out.");
     config.gamma = gamma.value_or(config.gamma);
     check_gamma(config.gamma);
-    if (success_balls && (*success_balls < 1 || *success_balls > most_success_balls))
-        throw UsageError(fmt::format("{} balls make no success", *success_balls),
-                         fmt::format("it takes 1 to {}", most_success_balls), "Correct the number.");
-    config.success_balls = static_cast<int>(success_balls.value_or(0));
+    if (success_reward && !std::isfinite(*success_reward))
+        throw UsageError(fmt::format("a reward of {} makes no success", *success_reward), "it is no finite number",
+                         "Correct the number.");
+    config.success_reward = success_reward;
     return config;
 }
 
@@ -135,7 +137,7 @@ std::vector<double> values_by(KnowledgeBase const& base, ValueConfig const& conf
         break;
     }
     case ValueRule::contrast:
-        check_contrast(evidence, config);
+        check_contrast(base, config);
         fill([&](std::size_t i) {
             return contrast_value({evidence.successes, evidence.successes_that_showed[i]},
                                   {evidence.failures, evidence.failures_that_showed[i]});

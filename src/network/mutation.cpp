@@ -11,12 +11,14 @@ namespace lore {
 namespace {
 
 /// Sources are numbered inputs first, then hidden neurons; targets outputs first, then hidden neurons.
-int source_count(Genome const& genome) { return sensor_count + genome.hidden_count(); }
-int target_count(Genome const& genome) { return effector_count + genome.hidden_count(); }
-NeuronIndex nth_source(int n) {
-    return static_cast<NeuronIndex>(n < sensor_count ? n : n - sensor_count + first_hidden);
+int source_count(Genome const& genome) { return genome.interface.inputs + genome.hidden_count(); }
+int target_count(Genome const& genome) { return genome.interface.outputs + genome.hidden_count(); }
+NeuronIndex nth_source(Genome const& genome, int n) {
+    return static_cast<NeuronIndex>(n < genome.interface.inputs ? n : n + genome.interface.outputs);
 }
-NeuronIndex nth_target(int n) { return static_cast<NeuronIndex>(first_output + n); }
+NeuronIndex nth_target(Genome const& genome, int n) {
+    return static_cast<NeuronIndex>(genome.interface.first_output() + n);
+}
 
 /// Which pairs of neurons an edge joins already.
 class Connections {
@@ -27,9 +29,10 @@ public:
     bool has(NeuronIndex source, NeuronIndex target) const { return joined_[position(source, target)]; }
 
 private:
-    static std::size_t position(NeuronIndex source, NeuronIndex target) { return source * 128u + target; }
-    static_assert(first_hidden + most_hidden < 128);
-    std::bitset<128 * 128> joined_;
+    static std::size_t position(NeuronIndex source, NeuronIndex target) {
+        return source * std::size_t{most_neurons} + target;
+    }
+    std::bitset<std::size_t{most_neurons} * most_neurons> joined_;
 };
 
 }   // namespace
@@ -58,10 +61,10 @@ void rewire(Genome& genome, MutationConfig const& config, Stream& rng) {
         std::vector<NeuronIndex> free;
         if (redraw_source) {
             for (int n = 0; n < source_count(genome); ++n)
-                if (!connections.has(nth_source(n), edge.target)) free.push_back(nth_source(n));
+                if (!connections.has(nth_source(genome, n), edge.target)) free.push_back(nth_source(genome, n));
         } else {
             for (int n = 0; n < target_count(genome); ++n)
-                if (!connections.has(edge.source, nth_target(n))) free.push_back(nth_target(n));
+                if (!connections.has(edge.source, nth_target(genome, n))) free.push_back(nth_target(genome, n));
         }
         if (!free.empty())
             (redraw_source ? edge.source : edge.target) = free[rng.below(static_cast<std::uint32_t>(free.size()))];
@@ -82,8 +85,8 @@ bool add_edge(Genome& genome, NetworkLimits const& limits, Stream& rng) {
     std::uint32_t chosen = rng.below(static_cast<std::uint32_t>(free));
     for (int s = 0; s < source_count(genome); ++s)
         for (int t = 0; t < target_count(genome); ++t) {
-            if (connections.has(nth_source(s), nth_target(t)) || chosen-- != 0) continue;
-            genome.edges.push_back({nth_source(s), nth_target(t), static_cast<float>(rng.uniform())});
+            if (connections.has(nth_source(genome, s), nth_target(genome, t)) || chosen-- != 0) continue;
+            genome.edges.push_back({nth_source(genome, s), nth_target(genome, t), static_cast<float>(rng.uniform())});
             return true;
         }
     assert(false && "fewer free pairs than counted: duplicate or misplaced edges");
@@ -102,7 +105,7 @@ bool split_edge(Genome& genome, NetworkLimits const& limits, Stream& rng) {
         genome.hidden_count() >= std::min(limits.max_hidden, most_hidden))
         return false;
     Edge& edge = genome.edges[rng.below(static_cast<std::uint32_t>(edges))];
-    auto const neuron = static_cast<NeuronIndex>(first_hidden + genome.hidden_count());
+    auto const neuron = static_cast<NeuronIndex>(genome.first_hidden() + genome.hidden_count());
     Edge const second_half{neuron, edge.target, edge.weight};
     edge.target = neuron;
     genome.edges.push_back(second_half);
@@ -113,9 +116,9 @@ bool split_edge(Genome& genome, NetworkLimits const& limits, Stream& rng) {
 bool delete_neuron(Genome& genome, Stream& rng) {
     if (genome.hidden_count() == 0) return false;
     auto const hidden = rng.below(static_cast<std::uint32_t>(genome.hidden_count()));
-    auto const neuron = static_cast<NeuronIndex>(first_hidden + hidden);
+    auto const neuron = static_cast<NeuronIndex>(static_cast<std::uint32_t>(genome.first_hidden()) + hidden);
     std::erase_if(genome.edges, [neuron](Edge const& edge) { return edge.source == neuron || edge.target == neuron; });
-    genome.biases.erase(genome.biases.begin() + effector_count + hidden);
+    genome.biases.erase(genome.biases.begin() + genome.interface.outputs + hidden);
     for (Edge& edge : genome.edges) {
         if (edge.source > neuron) --edge.source;
         if (edge.target > neuron) --edge.target;

@@ -12,8 +12,9 @@ namespace {
 
 /// Per hidden neuron of the genome, its number in the Network, or -1 where no output can be reached from it.
 std::vector<int> number_useful_neurons(Genome const& genome) {
+    int const first_hidden = genome.first_hidden();
     std::vector<bool> useful(static_cast<std::size_t>(first_hidden + genome.hidden_count()), false);
-    std::fill(useful.begin() + first_output, useful.begin() + first_hidden, true);
+    std::fill(useful.begin() + genome.interface.first_output(), useful.begin() + first_hidden, true);
     for (bool grows = true; grows;) {
         grows = false;
         for (Edge const& edge : genome.edges)
@@ -30,8 +31,12 @@ std::vector<int> number_useful_neurons(Genome const& genome) {
 
 Network compile(Genome const& genome) {
     assert(why_invalid(genome).empty());
+    int const inputs = genome.interface.inputs, outputs = genome.interface.outputs;
+    int const first_hidden = genome.first_hidden();
     std::vector<int> const numbers = number_useful_neurons(genome);
     Network network;
+    network.inputs = inputs;
+    network.outputs = outputs;
     network.hidden_count =
         static_cast<int>(std::count_if(numbers.begin(), numbers.end(), [](int n) { return n >= 0; }));
 
@@ -41,11 +46,11 @@ Network compile(Genome const& genome) {
     for (Edge const& edge : genome.edges) {
         int const target = edge.target < first_hidden ? -1 : numbers[edge.target - first_hidden];
         if (edge.target >= first_hidden && target < 0) continue;
-        int const source = edge.source < sensor_count ? -1 : numbers[edge.source - first_hidden];
-        assert(edge.source < sensor_count || source >= 0);   // what feeds a useful neuron is useful
-        auto const to = static_cast<std::uint64_t>(edge.target < first_hidden ? edge.target - first_output
-                                                                              : effector_count + target);
-        auto const from = static_cast<std::uint64_t>(edge.source < sensor_count ? edge.source : sensor_count + source);
+        int const source = edge.source < inputs ? -1 : numbers[edge.source - first_hidden];
+        assert(edge.source < inputs || source >= 0);   // what feeds a useful neuron is useful
+        auto const to =
+            static_cast<std::uint64_t>(edge.target < first_hidden ? edge.target - inputs : outputs + target);
+        auto const from = static_cast<std::uint64_t>(edge.source < inputs ? edge.source : inputs + source);
         entries.push_back(to << 40 | from << 32 | std::bit_cast<std::uint32_t>(decode_gene(edge.weight)));
     }
     std::sort(entries.begin(), entries.end());   // no two have the same target and source
@@ -61,14 +66,17 @@ Network compile(Genome const& genome) {
     for (std::size_t target = 1; target < network.first.size(); ++target)
         network.first[target] = static_cast<std::uint16_t>(network.first[target] + network.first[target - 1]);
 
-    for (int output = 0; output < effector_count; ++output)
+    for (int output = 0; output < outputs; ++output)
         network.bias.push_back(5.0f * decode_gene(genome.biases[static_cast<std::size_t>(output)]));
     for (std::size_t h = 0; h < numbers.size(); ++h)
-        if (numbers[h] >= 0) network.bias.push_back(5.0f * decode_gene(genome.biases[effector_count + h]));
+        if (numbers[h] >= 0)
+            network.bias.push_back(5.0f * decode_gene(genome.biases[static_cast<std::size_t>(outputs) + h]));
     return network;
 }
 
 void prune(Genome& genome) {
+    int const first_hidden = genome.first_hidden();
+    std::size_t const outputs = genome.interface.outputs;
     std::vector<int> const numbers = number_useful_neurons(genome);
     auto const is_useless = [&](NeuronIndex neuron) {
         return neuron >= first_hidden && numbers[neuron - first_hidden] < 0;
@@ -81,24 +89,25 @@ void prune(Genome& genome) {
         renumber(edge.source);
         renumber(edge.target);
     }
-    std::vector<float> biases(genome.biases.begin(), genome.biases.begin() + effector_count);
+    std::vector<float> biases(genome.biases.begin(), genome.biases.begin() + genome.interface.outputs);
     for (std::size_t h = 0; h < numbers.size(); ++h)
-        if (numbers[h] >= 0) biases.push_back(genome.biases[effector_count + h]);
+        if (numbers[h] >= 0) biases.push_back(genome.biases[outputs + h]);
     genome.biases = std::move(biases);
 }
 
-void tick(Network const& network, std::span<float const, sensor_count> inputs, NetworkState& state,
-          std::span<float, effector_count> outputs) {
-    std::array<float, sensor_count + most_hidden> before;
+void tick(Network const& network, std::span<float const> inputs, NetworkState& state, std::span<float> outputs) {
+    assert(std::ssize(inputs) == network.inputs && std::ssize(outputs) == network.outputs);
+    auto const output_count = static_cast<std::size_t>(network.outputs);
+    std::array<float, most_sensors + most_hidden> before;
     std::copy(inputs.begin(), inputs.end(), before.begin());
-    std::copy_n(state.hidden.begin(), network.hidden_count, before.begin() + sensor_count);
+    std::copy_n(state.hidden.begin(), network.hidden_count, before.begin() + network.inputs);
     for (int target = 0; target < network.target_count(); ++target) {
         auto const t = static_cast<std::size_t>(target);
         float sum = 0.0f;
         for (std::size_t i = network.first[t]; i < network.first[t + 1]; ++i)
             sum += network.weight[i] * before[network.source[i]];
         float const activation = 1.0f / (1.0f + math::exp(network.bias[t] - sum));
-        (target < effector_count ? outputs[t] : state.hidden[t - effector_count]) = activation;
+        (t < output_count ? outputs[t] : state.hidden[t - output_count]) = activation;
     }
 }
 

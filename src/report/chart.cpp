@@ -1,5 +1,7 @@
 #include "chart.h"
 
+#include "reward_words.h"
+
 #include <lore/core/error.h>
 #include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
@@ -19,24 +21,32 @@ namespace {
 
 constexpr std::string_view ink = "#222222", pale = "#dddddd", source_color = "#777777", lead_color = "#999999";
 
-/// The plotting area and its scales; both axes start at 0.
+/// The plotting area and its scales; the horizontal axis starts at 0.
 struct Frame {
     double left, right, top, bottom;   ///< pixels
     double x_most, y_most;             ///< data
+    double y_least = 0;
     double x(double value) const { return left + (right - left) * value / x_most; }
-    double y(double value) const { return bottom - (bottom - top) * value / y_most; }
+    double y(double value) const { return bottom - (bottom - top) * (value - y_least) / (y_most - y_least); }
 };
 
-/// Round numbers from 0 to `most`; only whole ones, since balls and generations are counted.
+/// The vertical scale of rewards that are not counts, with some room above and below.
+void fit(Frame& frame, double least, double most) {
+    double const room = most > least ? 0.04 * (most - least) : 1;
+    frame.y_least = least - room;
+    frame.y_most = most + room;
+}
+
+/// Round numbers from 0 to `most`; only whole ones, of what is counted.
 std::vector<double> whole_ticks(double most) {
     std::vector<double> places = ticks(0, most, 8);
     std::erase_if(places, [](double place) { return place != std::round(place); });
     return places;
 }
 
-void draw_ball_axis(SvgDocument& svg, Frame const& frame, std::string_view what) {
-    for (double const tick : whole_ticks(frame.y_most)) {
-        if (tick > 0)
+void draw_reward_axis(SvgDocument& svg, Frame const& frame, bool counts, std::string_view what) {
+    for (double const tick : counts ? whole_ticks(frame.y_most) : ticks(frame.y_least, frame.y_most, 8)) {
+        if (tick > frame.y_least)
             svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
         svg.text({frame.left - 8, frame.y(tick) + 4}, tick_label(tick), {.anchor = Anchor::end});
     }
@@ -53,7 +63,8 @@ struct Curve {
     double end() const { return rows.back()->generation; }
 };
 
-/// One a treatment that has runs: the source treatment's, then those of the report's order.
+/// One a treatment that has runs: the source treatment's, if its reward has the same unit, then those of the report's
+/// order.
 std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     // Source runs may be longer than those on the target task, which the figure is about.
     int last = -1;
@@ -62,7 +73,9 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     if (last < 0) last = std::numeric_limits<int>::max();
 
     std::vector<Curve> curves;
+    std::string const unit = results.reward_unit(plan);
     auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
+        if (results.unit_of(treatment.name).value_or(unit) != unit) return;   // another axis
         Curve curve{treatment.label, color, dashed, {}};
         for (CurveRow const& row : results.curves)
             if (row.treatment == treatment.name && row.generation <= last) curve.rows.push_back(&row);
@@ -124,10 +137,10 @@ std::size_t stack(std::vector<Bracket>& brackets) {
 /// About so many pixels are taken by a label; wide letters take a tenth more.
 double text_width(std::string_view label) { return 6.5 * static_cast<double>(label.size()); }
 
-void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& balls,
+void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& rewards,
               std::string_view color) {
     constexpr double half = 26, whisker = 13;
-    FiveNumbers const five = five_numbers(balls);
+    FiveNumbers const five = five_numbers(rewards);
     for (auto const& [end, box] :
          {std::pair{five.low_whisker, five.lower_quartile}, std::pair{five.high_whisker, five.upper_quartile}}) {
         svg.line({x, frame.y(end)}, {x, frame.y(box)}, {.stroke = ink});
@@ -137,10 +150,10 @@ void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double
     svg.rect({x - half, top}, 2 * half, height, {.fill = color, .opacity = 0.18});
     svg.rect({x - half, top}, 2 * half, height, {.stroke = ink});
     svg.line({x - half, frame.y(five.median)}, {x + half, frame.y(five.median)}, {.stroke = ink, .width = 2.4});
-    // Balls are whole numbers: runs with equal balls stand side by side.
+    // Rewards may be counts: runs with equal ones stand side by side.
     std::map<double, int> of_value, drawn;
-    for (double const value : balls) ++of_value[value];
-    for (double const value : balls) {
+    for (double const value : rewards) ++of_value[value];
+    for (double const value : rewards) {
         double const spacing = std::min(6.0, 76.0 / of_value[value]);
         double const offset = spacing * (drawn[value]++ - (of_value[value] - 1) / 2.0);
         svg.circle({x + offset, frame.y(value)}, 2.6, {.fill = color, .opacity = 0.75});
@@ -157,17 +170,24 @@ std::string_view treatment_color(std::size_t i) {
 
 std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     std::vector<Curve> const curves = curves_of(plan, results);
+    RewardWords const words = reward_words(results.reward_unit(plan));
     Frame frame{64, 640, 24, 420, 1, 1};
+    bool const counts = results.are_counts();
+    double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
     for (Curve const& curve : curves) {
         frame.x_most = std::max(frame.x_most, curve.end());
-        for (CurveRow const* row : curve.rows) frame.y_most = std::max(frame.y_most, row->high);
+        for (CurveRow const* row : curve.rows) {
+            least = std::min(least, row->low);
+            most = std::max(most, row->high);
+        }
     }
-    frame.y_most = std::ceil(frame.y_most);
+    if (counts) frame.y_most = std::ceil(std::max(frame.y_most, most));
+    else if (!curves.empty()) fit(frame, least, most);
 
     double width = 856;
     for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + 1.1 * text_width(curve.label));
-    SvgDocument svg{width, 476, "Mean number of collected balls of the best-of-run by generation"};
-    draw_ball_axis(svg, frame, "collected balls (mean of best-of-runs)");
+    SvgDocument svg{width, 476, fmt::format("Mean {} of the best-of-run by generation", words.number_of)};
+    draw_reward_axis(svg, frame, counts, words.collected + " (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
         svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
         svg.text({frame.x(tick), frame.bottom + 20}, tick_label(tick), {.anchor = Anchor::middle});
@@ -207,16 +227,19 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     struct Box {
         std::string name, label;
         std::string_view color;
-        std::vector<double> balls;
+        std::vector<double> rewards;
     };
     std::vector<Box> boxes;
-    double highest = 1;
+    RewardWords const words = reward_words(results.reward_unit(plan));
+    bool const counts = results.are_counts();
+    double highest = std::numeric_limits<double>::lowest(), lowest = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
         Treatment const& treatment = plan.treatment(plan.report_order[i]);
-        auto balls = results.final_balls(treatment.name);
-        if (balls.empty()) continue;
-        highest = std::max(highest, *std::max_element(balls.begin(), balls.end()));
-        boxes.push_back({treatment.name, treatment.label, treatment_color(i), std::move(balls)});
+        auto rewards = results.final_rewards(treatment.name);
+        if (rewards.empty()) continue;
+        highest = std::max(highest, *std::max_element(rewards.begin(), rewards.end()));
+        lowest = std::min(lowest, *std::min_element(rewards.begin(), rewards.end()));
+        boxes.push_back({treatment.name, treatment.label, treatment_color(i), std::move(rewards)});
     }
     auto const place = [&](std::string const& name) {
         return static_cast<std::size_t>(
@@ -233,14 +256,17 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     double slot = 98;
     for (Box const& box : boxes) slot = std::max(slot, text_width(box.label));
     double const right = 64 + slot * static_cast<double>(std::max<std::size_t>(boxes.size(), 3));
-    Frame const frame{64, right, top, top + 340, 1, highest + 0.4};   // room for the highest points' radius
-    SvgDocument svg{right + 20, frame.bottom + 56, "Collected balls of the best-of-run at the last generation"};
-    draw_ball_axis(svg, frame, "collected balls (best-of-run)");
+    Frame frame{64, right, top, top + 340, 1, 1};
+    if (counts) frame.y_most = std::max(1.0, highest) + 0.4;   // room for the highest points' radius
+    else if (!boxes.empty()) fit(frame, lowest, highest);
+    SvgDocument svg{right + 20, frame.bottom + 56,
+                    fmt::format("{} of the best-of-run at the last generation", capital(words.collected))};
+    draw_reward_axis(svg, frame, counts, words.collected + " (best-of-run)");
     auto const center = [&](std::size_t i) { return frame.left + slot * (static_cast<double>(i) + 0.5); };
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        draw_box(svg, frame, center(i), boxes[i].balls, boxes[i].color);
+        draw_box(svg, frame, center(i), boxes[i].rewards, boxes[i].color);
         svg.text({center(i), frame.bottom + 20}, boxes[i].label, {.anchor = Anchor::middle});
-        svg.text({center(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].balls.size()),
+        svg.text({center(i), frame.bottom + 36}, fmt::format("n = {}", boxes[i].rewards.size()),
                  {.anchor = Anchor::middle, .size = 10});
     }
     for (Bracket const& bracket : brackets) {

@@ -7,8 +7,8 @@
 
 namespace lore {
 
-/// Figure 3: mean best-of-run balls by generation, a line a treatment with its confidence band, labeled at its end.
-/// An SVG document. Treatments without runs are left out.
+/// Figure 3: mean reward of the best-of-run by generation, a line a treatment with its confidence band, labeled at its
+/// end. An SVG document. Treatments without runs are left out.
 std::string draw_curves(CampaignPlan const&, Results const&);
 
 /// Figure 4: a boxplot a target treatment at the last generation with every run as a point, and a bracket with the

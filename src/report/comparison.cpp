@@ -4,10 +4,24 @@
 #include <lore/statistics/mann_whitney.h>
 #include <lore/statistics/quantiles.h>
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace lore {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Whole numbers without a decimal point.
+Json number(double reward) {
+    if (std::abs(reward) < 1e15 && reward == std::round(reward)) return static_cast<std::int64_t>(reward);
+    return reward;
+}
+
+}   // namespace
 
 std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results const& results) {
     std::vector<Comparison> comparisons;
@@ -15,7 +29,7 @@ std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results con
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
         for (std::size_t j = i + 1; j < plan.report_order.size(); ++j) {
             std::string const &a = plan.report_order[i], &b = plan.report_order[j];
-            auto const first = results.final_balls(a), second = results.final_balls(b);
+            auto const first = results.final_rewards(a), second = results.final_rewards(b);
             if (first.empty() || second.empty()) continue;
             MannWhitney const test = mann_whitney(first, second);
             comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u,
@@ -37,27 +51,28 @@ std::string comparisons_csv(std::vector<Comparison> const& comparisons) {
 }
 
 std::string summary_json(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
-    using Json = nlohmann::ordered_json;
+    std::string const word{results.reward_word()};
     Json document;
     document["title"] = plan.title;
+    if (word != first_reward_unit) document["reward_unit"] = results.reward_unit(plan);
 
     auto describe = [&](Treatment const& treatment) {
         Json entry{{"treatment", treatment.name}, {"label", treatment.label}, {"runs_planned", treatment.runs}};
-        auto const balls = results.final_balls(treatment.name);
-        entry["runs"] = balls.size();
-        if (balls.empty()) return entry;
-        entry["mean"] = mean(balls);
-        entry["standard_deviation"] = standard_deviation(balls);
-        entry["least"] = quantile(balls, 0);
-        entry["lower_quartile"] = quantile(balls, 0.25);
-        entry["median"] = quantile(balls, 0.5);
-        entry["upper_quartile"] = quantile(balls, 0.75);
-        entry["most"] = quantile(balls, 1);
+        auto const rewards = results.final_rewards(treatment.name);
+        entry["runs"] = rewards.size();
+        if (rewards.empty()) return entry;
+        entry["mean"] = mean(rewards);
+        entry["standard_deviation"] = standard_deviation(rewards);
+        entry["least"] = quantile(rewards, 0);
+        entry["lower_quartile"] = quantile(rewards, 0.25);
+        entry["median"] = quantile(rewards, 0.5);
+        entry["upper_quartile"] = quantile(rewards, 0.75);
+        entry["most"] = quantile(rewards, 1);
         for (SpeedRow const& speed : results.speeds) {
             if (speed.treatment != treatment.name) continue;
-            Json& times = entry["time_to_balls"] = Json::array();
-            for (std::size_t k = 0; k < timed_balls.size(); ++k)
-                times.push_back({{"balls", timed_balls[k]},
+            Json& times = entry["time_to_" + word] = Json::array();
+            for (std::size_t k = 0; k < speed.to.size(); ++k)
+                times.push_back({{word, number(speed.to[k].level)},
                                  {"reached", speed.to[k].reached},
                                  {"mean", speed.to[k].mean},
                                  {"low", speed.to[k].low},
@@ -76,11 +91,11 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
         }
         return entry;
     };
-    bool complete = static_cast<int>(results.final_balls(plan.source.name).size()) == plan.source.runs;
+    bool complete = static_cast<int>(results.final_rewards(plan.source.name).size()) == plan.source.runs;
     document["treatments"] = Json::array({describe(plan.source)});
     for (std::string const& name : plan.report_order) {
         document["treatments"].push_back(describe(plan.treatment(name)));
-        complete = complete && static_cast<int>(results.final_balls(name).size()) == plan.treatment(name).runs;
+        complete = complete && static_cast<int>(results.final_rewards(name).size()) == plan.treatment(name).runs;
     }
     document["complete"] = complete;
 
@@ -103,7 +118,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"kind", base.kind},
                                          {"source_run", base.source_run},
                                          {"seed", base.seed},
-                                         {"balls", base.balls},
+                                         {word, number(base.reward)},
                                          {"individuals", base.individuals},
                                          {"windows", base.windows},
                                          {"features", base.features},

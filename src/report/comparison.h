@@ -8,7 +8,7 @@
 
 namespace lore {
 
-/// Two treatments compared by their runs' balls at the end: a row of pvalues.csv.
+/// Two treatments compared by their runs' rewards at the end: a row of pvalues.csv.
 struct Comparison {
     std::string a, b;
     int n_a = 0, n_b = 0;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace lore {
 /// One column of a table whose rows are Row: its name, and how a field is written and read.
 template <class Row>
 struct CsvColumn {
-    std::string_view name;
+    std::string name;
     std::function<void(std::string&, Row const&)> write;
     std::function<void(CsvTable const&, std::size_t row, std::size_t column, Row&)> read;
     bool optional = false;   ///< files of former versions may lack it; the row's default then stays
@@ -27,8 +28,8 @@ inline constexpr Digits rounded = Digits::four;   ///< to 4 decimals
 
 /// The column of a member: text, a whole number, or a number in its shortest form or rounded.
 template <class Row, class Value>
-CsvColumn<Row> csv_column(std::string_view name, Value Row::*member, Digits digits = Digits::shortest) {
-    return {name,
+CsvColumn<Row> csv_column(std::string name, Value Row::*member, Digits digits = Digits::shortest) {
+    return {std::move(name),
             [=](std::string& text, Row const& row) {
                 if constexpr (std::is_floating_point_v<Value>)
                     if (digits == Digits::four) {

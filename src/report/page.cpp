@@ -4,6 +4,7 @@
 #include "html.h"
 #include "page_parts.h"
 #include "report_assets.h"
+#include "reward_words.h"
 
 #include <lore/campaign/choice.h>
 #include <lore/experiment/version.h>
@@ -24,7 +25,7 @@ std::string commands(CampaignPlan plan, Results const& results) {
     Choice choice;
     for (KnowledgeRow const& base : results.bases)
         if (base.kind == "lineage")
-            choice.chosen.push_back({base.knowledge, 0, base.source_run, base.seed, base.balls});
+            choice.chosen.push_back({base.knowledge, 0, base.source_run, base.seed, base.reward});
     bool const known = choice.covers(plan);
     std::string text;
     for (Step const& step : steps_of(plan)) {
@@ -50,24 +51,40 @@ std::string figure(Figures const& figures, std::string const& name, Places const
     return filled("figure", {{"name", name}, {"svg", svg}, {"caption", caption}});
 }
 
-std::string significance(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
+std::string significance(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
     if (comparisons.empty()) return "";
-    return filled("significance",
-                  {{"square", p_value_square(plan, comparisons)}, {"pairs", pairs_table(plan, comparisons)}});
+    RewardWords const words = reward_words(results.reward_unit(plan));
+    return filled("significance", {{"gets_more", escaped(words.gets_more)},
+                                   {"square", p_value_square(plan, comparisons)},
+                                   {"pairs", pairs_table(plan, comparisons)}});
 }
 
 std::string bases(CampaignPlan const& plan, Results const& results) {
-    return results.bases.empty() ? "" : filled("bases", {{"bases", bases_table(plan, results)}});
+    return results.bases.empty()
+               ? ""
+               : filled("bases", {{"noun", std::string{results.reward_word()}}, {"bases", bases_table(plan, results)}});
 }
 
 std::string populations(CampaignPlan const& plan, Results const& results) {
-    return results.populations.empty() ? "" : filled("population", {{"populations", populations_table(plan, results)}});
+    return results.populations.empty() ? ""
+                                       : filled("population", {{"noun", std::string{results.reward_word()}},
+                                                               {"populations", populations_table(plan, results)}});
 }
 
 std::string speeds(CampaignPlan const& plan, Results const& results) {
     if (results.speeds.empty()) return "";
-    std::string const leads = results.leads.empty() ? "" : filled("leads", {{"leads", leads_table(plan, results)}});
-    return filled("speed", {{"generations", std::to_string(results.speeds.front().generations)},
+    RewardWords const words = reward_words(results.reward_unit(plan));
+    Places const of_words{{"noun", words.noun}, {"unit", escaped(words.unit)}};
+    Places of_leads = of_words;
+    of_leads["leads"] = leads_table(plan, results);
+    std::string const leads = results.leads.empty() ? "" : filled("leads", of_leads);
+    std::vector<std::string> levels;
+    for (TimeToLevel const& to : results.speeds.front().to) levels.push_back(reward_text(to.level));
+    return filled("speed", {{"noun", words.noun},
+                            {"unit", escaped(words.unit)},
+                            {"so_much", words.so_much},
+                            {"levels", fmt::format("{}", fmt::join(levels, ", "))},
+                            {"generations", std::to_string(results.speeds.front().generations)},
                             {"speeds", speeds_table(plan, results)},
                             {"leads", leads}});
 }
@@ -85,6 +102,11 @@ std::size_t planned_runs(CampaignPlan const& plan) {
     return planned;
 }
 
+/// Whether the replays show worlds by their scenes, rather than arenas.
+bool shows_worlds(Results const& results) {
+    return results.replays.empty() ? results.reward_word() != first_reward_unit : !all_in_arenas(results.replays);
+}
+
 int last_generation(Results const& results) {
     int last = 0;
     for (CurveRow const& row : results.curves) last = std::max(last, row.generation);
@@ -95,33 +117,40 @@ int last_generation(Results const& results) {
 
 std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
                         Figures const& figures) {
+    RewardWords const words = reward_words(results.reward_unit(plan));
     std::size_t const planned = planned_runs(plan);
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
     // A new part is a function here, a place in page.html.in, and a block there for what stands around it.
-    return filled("page", {{"title", escaped(plan.title)},
-                           {"css", std::string{report_css}},
-                           {"js", std::string{report_js}},
-                           {"finished", std::to_string(results.runs.size())},
-                           {"planned", std::to_string(planned)},
-                           {"generation", std::to_string(last_generation(results))},
-                           {"incomplete", results.runs.size() < planned ? filled("incomplete", {}) : ""},
-                           {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
-                           {"treatments", treatments_table(plan, results)},
-                           {"figure3", figure(figures, "figure3")},
-                           {"figure4", figure(figures, "figure4")},
-                           {"speed", speeds(plan, results)},
-                           {"significance", significance(plan, comparisons)},
-                           {"bases", bases(plan, results)},
-                           {"figure5", figure(figures, "figure5", {{"run", trajectory}})},
-                           {"figure6", figure(figures, "figure6")},
-                           {"replay", replay_section(plan, results)},
-                           {"population", populations(plan, results)},
-                           {"runs", runs_table(plan, results)},
-                           {"versions", escaped(versions(results))},
-                           {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
-                           {"commands", escaped(commands(plan, results))}});
+    return filled(
+        "page",
+        {{"title", escaped(plan.title)},
+         {"css", std::string{report_css}},
+         {"js", std::string{report_js} + std::string{shows_worlds(results) ? world_replay_js : arena_replay_js}},
+         {"finished", std::to_string(results.runs.size())},
+         {"planned", std::to_string(planned)},
+         {"generation", std::to_string(last_generation(results))},
+         {"incomplete", results.runs.size() < planned ? filled("incomplete", {}) : ""},
+         {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
+         {"collected", escaped(capital(words.collected))},
+         {"treatments", treatments_table(plan, results)},
+         {"figure3",
+          figure(figures, "figure3", {{"number_of", escaped(capital(words.number_of))}, {"source", words.source}})},
+         {"figure4", figure(figures, "figure4", {{"collected", escaped(capital(words.collected))}})},
+         {"speed", speeds(plan, results)},
+         {"significance", significance(plan, results, comparisons)},
+         {"bases", bases(plan, results)},
+         {"figure5", figure(figures, "figure5",
+                            {{"run", trajectory}, {"not_found", shows_worlds(results) ? "" : " (-1: not found)"}})},
+         {"figure6",
+          figure(figures, "figure6", {{"not_found", shows_worlds(results) ? "" : " (0: not found in one of them)"}})},
+         {"replay", replay_section(plan, results)},
+         {"population", populations(plan, results)},
+         {"runs", runs_table(plan, results)},
+         {"versions", escaped(versions(results))},
+         {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
+         {"commands", escaped(commands(plan, results))}});
 }
 
 }   // namespace lore

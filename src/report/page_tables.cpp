@@ -4,6 +4,7 @@
 #include <lore/statistics/quantiles.h>
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -16,8 +17,14 @@ std::string count(std::uint64_t value) { return value == 0 ? "" : std::to_string
 
 /// A number of a treatment's runs at their end; "" without runs.
 template <class Function>
-HtmlCell if_any(std::vector<double> const& balls, Function const& text) {
-    return balls.empty() ? HtmlCell{""} : HtmlCell{text(balls)};
+HtmlCell if_any(std::vector<double> const& rewards, Function const& text) {
+    return rewards.empty() ? HtmlCell{""} : HtmlCell{text(rewards)};
+}
+
+/// A mean of rewards: of counts with two decimals.
+std::function<std::string(double)> mean_text(Results const& results) {
+    if (results.are_counts()) return two_decimals;
+    return [](double value) { return reward_text(value); };
 }
 
 }   // namespace
@@ -25,26 +32,28 @@ HtmlCell if_any(std::vector<double> const& balls, Function const& text) {
 std::string treatments_table(CampaignPlan const& plan, Results const& results) {
     struct Row {
         Treatment const* treatment;
-        std::vector<double> balls;
+        std::vector<double> rewards;
     };
-    std::vector<Row> rows{{&plan.source, results.final_balls(plan.source.name)}};
+    std::vector<Row> rows{{&plan.source, results.final_rewards(plan.source.name)}};
     for (std::string const& name : plan.report_order)
-        rows.push_back({&plan.treatment(name), results.final_balls(name)});
+        rows.push_back({&plan.treatment(name), results.final_rewards(name)});
 
+    bool const counts = results.are_counts();
+    auto const shown = mean_text(results);
     std::vector<HtmlColumn<Row>> columns{
         {"treatment", [](Row const& r) { return r.treatment->label; }, true},
-        {"runs", [](Row const& r) { return std::to_string(r.balls.size()); }},
+        {"runs", [](Row const& r) { return std::to_string(r.rewards.size()); }},
         {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }},
-        {"mean", [](Row const& r) { return if_any(r.balls, [](auto const& b) { return two_decimals(mean(b)); }); }},
-        {"sd", [](Row const& r) {
-             return if_any(r.balls, [](auto const& b) { return two_decimals(standard_deviation(b)); });
-         }}};
+        {"mean", [&](Row const& r) { return if_any(r.rewards, [&](auto const& b) { return shown(mean(b)); }); }},
+        {"sd",
+         [&](Row const& r) { return if_any(r.rewards, [&](auto const& b) { return shown(standard_deviation(b)); }); }}};
     std::vector<std::pair<std::string, double>> const quantiles{
         {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
     for (auto const& [heading, fraction] : quantiles)
-        columns.push_back({heading, [at = fraction](Row const& r) {
-                               return if_any(r.balls,
-                                             [&](auto const& b) { return fmt::format("{}", quantile(b, at)); });
+        columns.push_back({heading, [counts, at = fraction](Row const& r) {
+                               return if_any(r.rewards, [&](auto const& b) {
+                                   return counts ? fmt::format("{}", quantile(b, at)) : reward_text(quantile(b, at));
+                               });
                            }});
     return html_table("treatments", columns, rows);
 }
@@ -109,17 +118,21 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
 
 std::string populations_table(CampaignPlan const& plan, Results const& results) {
     using Row = PopulationRow;
+    auto const shown = mean_text(results);
     auto const if_shaped = [&](Row const& p, double value) {
-        return !plan.treatment(p.treatment).knowledge.empty() ? two_decimals(value) : std::string{};
+        return !plan.treatment(p.treatment).knowledge.empty() ? shown(value) : std::string{};
     };
     std::vector<HtmlColumn<Row>> const columns{
         {"treatment", [&](Row const& p) { return plan.treatment(p.treatment).label; }, true},
         {"generation", [](Row const& p) { return std::to_string(p.generation); }},
-        {"balls", [](Row const& p) { return two_decimals(p.mean_balls); }},
+        {std::string{results.reward_word()}, [&](Row const& p) { return shown(p.mean_reward); }},
         {"fronts", [](Row const& p) { return fmt::format("{:.0f}", p.fronts); }},
         {"tied", [](Row const& p) { return fmt::format("{:.0f}", p.tied); }},
         {"best shaping", [&](Row const& p) { return if_shaped(p, p.best_shaping); }},
-        {"share at best", [&](Row const& p) { return if_shaped(p, p.shaping_at_max); }},
+        {"share at best",
+         [&](Row const& p) {
+             return plan.treatment(p.treatment).knowledge.empty() ? std::string{} : two_decimals(p.shaping_at_max);
+         }},
         {"connections", [](Row const& p) { return fmt::format("{:.1f}", p.connections); }},
         {"hidden", [](Row const& p) { return fmt::format("{:.1f}", p.hidden); }}};
     return html_table("populations", columns, results.populations);
@@ -128,11 +141,15 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
 std::string speeds_table(CampaignPlan const& plan, Results const& results) {
     using Row = SpeedRow;
     auto const interval = [](double low, double high) { return HtmlCell{fmt::format("{:.0f} .. {:.0f}", low, high)}; };
+    auto const area = [&, counts = results.are_counts()](double value) {
+        return counts ? fmt::format("{:.0f}", value) : reward_text(value);
+    };
     std::vector<HtmlColumn<Row>> columns{
         {"treatment", [&](Row const& s) { return plan.treatment(s.treatment).label; }, true},
         {"runs", [](Row const& s) { return std::to_string(s.runs); }}};
-    for (std::size_t k = 0; k < timed_balls.size(); ++k) {
-        std::string const heading = fmt::format("to {}", timed_balls[k]);
+    std::size_t const levels = results.speeds.empty() ? 0 : results.speeds.front().to.size();
+    for (std::size_t k = 0; k < levels; ++k) {
+        std::string const heading = fmt::format("to {}", reward_text(results.speeds.front().to[k].level));
         columns.push_back({heading, [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].mean); }});
         columns.push_back(
             {"95 %", [=](Row const& s) {
@@ -141,30 +158,33 @@ std::string speeds_table(CampaignPlan const& plan, Results const& results) {
         columns.push_back({"median", [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].median); }});
         columns.push_back({"there", [=](Row const& s) { return std::to_string(s.to[k].reached); }});
     }
-    columns.push_back({"area", [](Row const& s) { return fmt::format("{:.0f}", s.area); }});
+    columns.push_back({"area", [&](Row const& s) { return area(s.area); }});
     columns.push_back({"95 %", [=](Row const& s) {
-                           return HtmlCell{interval(s.area_low, s.area_high).shown, fmt::format("{}", s.area_low)};
+                           return HtmlCell{fmt::format("{} .. {}", area(s.area_low), area(s.area_high)),
+                                           fmt::format("{}", s.area_low)};
                        }});
     return html_table("speeds", columns, results.speeds);
 }
 
 std::string leads_table(CampaignPlan const& plan, Results const& results) {
     using Row = LeadRow;
+    auto const shown = mean_text(results);
     auto const label = [&](std::string const& name) { return plan.treatment(name).label; };
     std::vector<HtmlColumn<Row>> const columns{
         {"treatment", [&](Row const& l) { return label(l.treatment); }, true},
         {"policy", [&](Row const& l) { return label(l.policy); }, true},
         {"no transfer", [&](Row const& l) { return label(l.none); }, true},
         {"generation", [](Row const& l) { return std::to_string(l.generation); }},
-        {"balls", [](Row const& l) { return two_decimals(l.balls); }},
-        {"of the policy", [](Row const& l) { return two_decimals(l.policy_balls); }},
-        {"of no transfer", [](Row const& l) { return two_decimals(l.none_balls); }},
+        {std::string{results.reward_word()}, [&](Row const& l) { return shown(l.reward); }},
+        {"of the policy", [&](Row const& l) { return shown(l.policy_reward); }},
+        {"of no transfer", [&](Row const& l) { return shown(l.none_reward); }},
         {"share of the lead", [](Row const& l) { return two_decimals(l.share); }}};
     return html_table("leads", columns, results.leads);
 }
 
 std::string bases_table(CampaignPlan const& plan, Results const& results) {
     using Row = KnowledgeRow;
+    auto const shown = mean_text(results);
     auto const label = [&](Row const& base) {
         auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
                                           [&](KnowledgePlan const& k) { return k.name == base.knowledge; });
@@ -175,10 +195,11 @@ std::string bases_table(CampaignPlan const& plan, Results const& results) {
         {"made from", [](Row const& b) { return b.kind; }, true},
         {"run", [](Row const& b) { return std::to_string(b.source_run); }},
         {"seed", [](Row const& b) { return std::to_string(b.seed); }},
-        {"balls", [](Row const& b) { return std::to_string(b.balls); }},
+        {std::string{results.reward_word()}, [](Row const& b) { return reward_text(b.reward); }},
         {"individuals", [](Row const& b) { return std::to_string(b.individuals); }},
         {"features", [](Row const& b) { return std::to_string(b.features); }},
-        {"values", [](Row const& b) { return fmt::format("{:.2f} .. {:.2f}", b.least_value, b.greatest_value); }},
+        {"values",
+         [&](Row const& b) { return fmt::format("{} .. {}", shown(b.least_value), shown(b.greatest_value)); }},
         {"at top", [](Row const& b) { return std::to_string(b.at_greatest); }},
         {"once", [](Row const& b) { return std::to_string(b.shown_once); }}};
     return html_table("knowledge", columns, results.bases);
@@ -190,7 +211,7 @@ std::string runs_table(CampaignPlan const& plan, Results const& results) {
         {"treatment", [&](Row const& r) { return plan.treatment(r.treatment).label; }, true},
         {"run", [](Row const& r) { return std::to_string(r.run); }},
         {"seed", [](Row const& r) { return std::to_string(r.seed); }},
-        {"balls", [](Row const& r) { return std::to_string(r.balls); }},
+        {std::string{results.reward_word()}, [](Row const& r) { return reward_text(r.reward); }},
         {"generations", [](Row const& r) { return count(static_cast<std::uint64_t>(r.generations)); }},
         {"evaluations", [](Row const& r) { return count(r.evaluations); }},
         {"signature", [](Row const& r) { return r.signature; }, true}};

@@ -1,9 +1,11 @@
 #include "panels.h"
 
+#include <lore/arena_view/trajectory.h>
 #include <lore/figure/trajectory.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -21,15 +23,8 @@ double size_of(std::string const& svg, std::string_view which) {
     return value;
 }
 
-/// Panel number `place` of the figure, without the trajectory itself.
-TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel, std::size_t place) {
-    bool const product = panel.knowledge.find('*') != std::string::npos;
-    std::string const before =
-        panel.figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(place)))
-                                  : "product of the values from ";
-    TrajectoryPicture picture;
-    picture.title = before + knowledge_label(plan, panel.knowledge);
-    picture.values = panel.values;
+/// The scale of an arena's panel: from 0, since nothing is below it.
+void scale_arena_panel(TrajectoryPicture& picture, PanelValues const& panel, bool product) {
     // A window without value: -1 from a single base, 0 where a product lacks a factor.
     for (double& value : picture.values)
         if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
@@ -37,7 +32,35 @@ TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel,
     picture.highest = *std::max_element(panel.values.begin(), panel.values.end());
     if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
     picture.not_found = product ? 0 : -1;
-    picture.value_label = product ? "product of the values" : "value (balls)";
+}
+
+/// The scale of another world's panel: from the lowest to the highest value found.
+void scale_world_panel(TrajectoryPicture& picture) {
+    std::vector<double> found = picture.values;
+    std::erase_if(found, [](double value) { return std::isnan(value); });
+    if (!found.empty()) {
+        auto const [least, most] = std::minmax_element(found.begin(), found.end());
+        picture.lowest = *least;
+        picture.highest = *most;
+    }
+    picture.not_found = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Panel number `place` of the figure, without the trajectory itself.
+TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel, std::size_t place,
+                             Replay const& replay, bool arena) {
+    bool const product = panel.knowledge.find('*') != std::string::npos;
+    std::string const before =
+        panel.figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(place)))
+                                  : "product of the values from ";
+    TrajectoryPicture picture;
+    picture.title = before + knowledge_label(plan, panel.knowledge);
+    picture.values = panel.values;
+    if (arena) scale_arena_panel(picture, panel, product);
+    else scale_world_panel(picture);
+    picture.value_label = product ? "product of the values" : fmt::format("value ({})", replay.reward_unit);
+    std::size_t const steps = replay.steps.size();
+    picture.window_length = static_cast<int>((steps + panel.values.size() - 1) / panel.values.size());
     return picture;
 }
 
@@ -76,20 +99,24 @@ std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
 std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
     if (results.replays.empty()) return "";
     Replay const& replay = results.replays.front();
+    bool const arena = all_in_arenas(results.replays);
     std::vector<Pose> poses;
     std::vector<std::uint8_t> carrying;
-    for (ReplayStep const& step : replay.steps) {
-        poses.push_back({step.x, step.y, step.theta});
-        carrying.push_back(step.carrying ? 1 : 0);
+    std::vector<Position> positions;
+    for (std::size_t k = 0; k < replay.steps.size(); ++k) {
+        ReplayStep const& step = replay.steps[k];
+        positions.push_back({step.x, step.y});
+        if (!arena) continue;
+        poses.push_back({step.x, step.y, replay.arena->steps[k].theta});
+        carrying.push_back(replay.arena->steps[k].carrying ? 1 : 0);
     }
     std::vector<std::string> panels;
     for (PanelValues const& panel : results.panels) {
         if (panel.figure != figure || panel.values.empty()) continue;
-        TrajectoryPicture picture = picture_of(plan, panel, panels.size());
-        picture.poses = poses;
-        picture.carrying = carrying;
-        picture.window_length = static_cast<int>((poses.size() + panel.values.size() - 1) / panel.values.size());
-        panels.push_back(draw_trajectory(replay.scene, picture));
+        TrajectoryPicture picture = picture_of(plan, panel, panels.size(), replay, arena);
+        picture.positions = positions;
+        panels.push_back(arena ? draw_trajectory(replay.arena->scene, RobotPath{poses, carrying}, picture)
+                               : draw_trajectory(replay.scene, picture));
     }
     if (panels.size() < 2) return panels.empty() ? "" : panels.front();
     return stacked(panels);

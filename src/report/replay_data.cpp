@@ -3,6 +3,9 @@
 #include <lore/report/replay_page.h>
 
 #include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
 
 namespace lore {
 
@@ -11,61 +14,76 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double rounded(double value, double scale) { return std::round(value * scale) / scale; }
-double hundredths(double value) { return rounded(value, 100); }
 
-Json arena_data(Scene const& scene) {
-    Json walls = Json::array(), doors = walls, balls = walls;
-    auto const corners = [](Rect const& r) {
-        return Json{hundredths(r.x0), hundredths(r.x1), hundredths(r.y0), hundredths(r.y1)};
-    };
-    for (Rect const& wall : scene.walls) walls.push_back(corners(wall));
-    for (Rect const& door : scene.doors) doors.push_back(corners(door));
-    for (Point const& ball : scene.ball_positions) balls.push_back({hundredths(ball.x), hundredths(ball.y)});
-    return {{"width", hundredths(scene.width)},
-            {"height", hundredths(scene.height)},
-            {"walls", walls},
-            {"doors", doors},
-            {"balls", balls},
-            {"basket",
-             {hundredths(scene.basket_center.x), hundredths(scene.basket_center.y), hundredths(scene.basket_radius)}},
-            {"switch", {hundredths(scene.switch_position.x), hundredths(scene.switch_position.y)}},
-            {"radius", hundredths(scene.robot_radius)}};
+/// With 5 digits, as many as a picture can show.
+double shortened(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+
+std::vector<double> values_of(PanelValues const* panel) {
+    std::vector<double> values;
+    if (panel != nullptr)
+        for (double const value : panel->values) values.push_back(rounded(value, 1000));
+    return values;
 }
 
-/// [step, carrying, door open, lamp lit, balls on the floor, collected], one at each change.
-Json events_of(Replay const& replay) {
-    Json events = Json::array(), last;
+Json arena_replay_data(Replay const& replay, PanelValues const* panel) {
+    std::vector<double> x, y, theta;
     for (std::size_t k = 0; k < replay.steps.size(); ++k) {
-        ReplayStep const& s = replay.steps[k];
-        Json const now{static_cast<int>(s.carrying), static_cast<int>(s.door_open), static_cast<int>(s.switch_on),
-                       s.balls_mask, s.collected};
-        if (now == last) continue;
-        last = now;
-        events.push_back(now);
-        events.back().insert(events.back().begin(), k);
+        x.push_back(rounded(replay.steps[k].x, 10));
+        y.push_back(rounded(replay.steps[k].y, 10));
+        theta.push_back(rounded(replay.arena->steps[k].theta, 100));
     }
-    return events;
+    return {{"arena", Json::parse(page_arena(replay.arena->scene))},
+            {"x", x},
+            {"y", y},
+            {"theta", theta},
+            {"events", Json::parse(page_events(replay.arena->steps))},
+            {"values", values_of(panel)}};
+}
+
+/// [step, reward so far], one at each change.
+Json rewards_of(Replay const& replay) {
+    Json rewards = Json::array();
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < replay.steps.size(); ++k) {
+        double const reward = shortened(replay.steps[k].reward);
+        if (reward == last) continue;
+        last = reward;
+        rewards.push_back({k, reward});
+    }
+    return rewards;
+}
+
+Json world_replay_data(Replay const& replay, PanelValues const* panel) {
+    std::vector<double> x, y;
+    for (ReplayStep const& step : replay.steps) {
+        x.push_back(shortened(step.x));
+        y.push_back(shortened(step.y));
+    }
+    Json values = Json::array();   // null: not found
+    if (panel != nullptr)
+        for (double const value : panel->values) values.push_back(std::isnan(value) ? Json{} : Json(shortened(value)));
+    return {{"world",
+             {{"width", shortened(replay.scene.width)},
+              {"height", shortened(replay.scene.height)},
+              {"svg", replay.scene.svg}}},
+            {"unit", replay.reward_unit},
+            {"x", x},
+            {"y", y},
+            {"rewards", rewards_of(replay)},
+            {"values", values}};
 }
 
 }   // namespace
 
-Json replay_data(Replay const& replay, PanelValues const* panel) {
-    std::vector<double> x, y, theta, values;
-    for (ReplayStep const& s : replay.steps) {
-        x.push_back(rounded(s.x, 10));
-        y.push_back(rounded(s.y, 10));
-        theta.push_back(hundredths(s.theta));
-    }
-    if (panel != nullptr)
-        for (double const value : panel->values) values.push_back(rounded(value, 1000));
-    return {{"arena", arena_data(replay.scene)}, {"x", x},          {"y", y}, {"theta", theta},
-            {"events", events_of(replay)},       {"values", values}};
+Json replay_data(Replay const& replay, PanelValues const* panel, bool as_arena) {
+    return as_arena ? arena_replay_data(replay, panel) : world_replay_data(replay, panel);
 }
 
 std::string replay_json(std::vector<Replay> const& replays) {
+    bool const arenas = all_in_arenas(replays);
     Json data = Json::array();
-    for (Replay const& replay : replays) data.push_back(replay_data(replay, nullptr));
-    return data.dump();
+    for (Replay const& replay : replays) data.push_back(replay_data(replay, nullptr, arenas));
+    return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }   // namespace lore

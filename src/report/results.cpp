@@ -10,6 +10,7 @@
 #include <lore/statistics/bootstrap.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -53,11 +54,12 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
         entry.row = {treatment.name,
                      run,
                      manifest.seed,
-                     progress.back().best_balls,
+                     progress.back().best_reward,
                      progress.back().generation,
                      progress.back().evaluations,
                      manifest.signature,
-                     fmt::format("{} ({})", manifest.build.version, manifest.build.commit)};
+                     fmt::format("{} ({})", manifest.build.version, manifest.build.commit),
+                     manifest.world.reward_unit.empty() ? std::string{first_reward_unit} : manifest.world.reward_unit};
         entry.progress = std::move(progress);
         finished.push_back(std::move(entry));
     }
@@ -74,7 +76,7 @@ std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedR
     std::vector<std::vector<double>> curves;
     for (FinishedRun const& run : runs) {
         curves.emplace_back();
-        for (std::size_t const g : generations) curves.back().push_back(run.progress[g].best_balls);
+        for (std::size_t const g : generations) curves.back().push_back(run.progress[g].best_reward);
     }
     MeanBand const band = bootstrap_mean_band(curves);
     std::vector<CurveRow> rows;
@@ -104,7 +106,7 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
             return sum / static_cast<double>(runs.size());
         };
         rows.push_back({treatment.name, generation, static_cast<int>(runs.size()),
-                        mean_of(&GenerationSummary::mean_balls), mean_of(&GenerationSummary::fronts),
+                        mean_of(&GenerationSummary::mean_reward), mean_of(&GenerationSummary::fronts),
                         mean_of(&GenerationSummary::tied), mean_of(&GenerationSummary::best_shaping),
                         mean_of(&GenerationSummary::shaping_at_max), mean_of(&GenerationSummary::mean_connections),
                         mean_of(&GenerationSummary::mean_hidden)});
@@ -112,10 +114,10 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
     return rows;
 }
 
-/// A treatment's runs as curves of best balls, from generation 0.
+/// A treatment's runs as curves of the best reward, from generation 0.
 struct TreatmentCurves {
     std::string treatment;
-    std::vector<std::vector<int>> curves;
+    std::vector<std::vector<double>> curves;
 };
 
 /// How fast the target treatments are, over the generations that all their runs have.
@@ -123,24 +125,28 @@ void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& ta
     if (targets.empty()) return;
     std::size_t length = targets.front().curves.front().size();
     for (TreatmentCurves const& target : targets)
-        for (std::vector<int> const& curve : target.curves) length = std::min(length, curve.size());
+        for (std::vector<double> const& curve : target.curves) length = std::min(length, curve.size());
     int const last = static_cast<int>(length) - 1;
+    std::vector<double> finals;
+    for (TreatmentCurves const& target : targets)
+        for (std::vector<double> const& curve : target.curves) finals.push_back(curve.back());
+    std::vector<double> const levels = timed_levels(plan, results.reward_unit(plan), finals);
     std::vector<Milestone> milestones;
     for (TreatmentCurves const& target : targets) {
-        results.speeds.push_back(speed_of(target.treatment, target.curves, last));
+        results.speeds.push_back(speed_of(target.treatment, target.curves, last, levels));
         for (int const generation : milestones_to(last)) {
             double sum = 0;
-            for (std::vector<int> const& curve : target.curves) sum += curve[static_cast<std::size_t>(generation)];
+            for (std::vector<double> const& curve : target.curves) sum += curve[static_cast<std::size_t>(generation)];
             milestones.push_back({target.treatment, generation, sum / static_cast<double>(target.curves.size())});
         }
     }
     results.leads = leads_of(plan, milestones);
 }
 
-std::vector<int> best_balls(std::vector<GenerationSummary> const& progress) {
-    std::vector<int> balls;
-    for (GenerationSummary const& generation : progress) balls.push_back(generation.best_balls);
-    return balls;
+std::vector<double> best_rewards(std::vector<GenerationSummary> const& progress) {
+    std::vector<double> rewards;
+    for (GenerationSummary const& generation : progress) rewards.push_back(generation.best_reward);
+    return rewards;
 }
 
 std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory,
@@ -154,7 +160,7 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
                          base.provenance().kind,
                          source->run,
                          source->seed,
-                         source->balls,
+                         source->reward,
                          base.provenance().individuals,
                          base.provenance().windows,
                          base.size(),
@@ -180,11 +186,34 @@ KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& kn
     return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
 }
 
-std::vector<double> Results::final_balls(std::string_view treatment) const {
-    std::vector<double> balls;
+std::vector<double> Results::final_rewards(std::string_view treatment) const {
+    std::vector<double> rewards;
     for (RunRow const& run : runs)
-        if (run.treatment == treatment) balls.push_back(run.balls);
-    return balls;
+        if (run.treatment == treatment) rewards.push_back(run.reward);
+    return rewards;
+}
+
+std::optional<std::string> Results::unit_of(std::string_view treatment) const {
+    for (RunRow const& run : runs)
+        if (run.treatment == treatment) return run.reward_unit;
+    return std::nullopt;
+}
+
+std::string Results::reward_unit(CampaignPlan const& plan) const {
+    for (std::string const& name : plan.report_order)
+        if (auto unit = unit_of(name)) return *std::move(unit);
+    return unit_of(plan.source.name).value_or(std::string{first_reward_unit});
+}
+
+std::string_view Results::reward_word() const {
+    bool const first =
+        std::all_of(runs.begin(), runs.end(), [](RunRow const& run) { return run.reward_unit == first_reward_unit; });
+    return lore::reward_word(first ? first_reward_unit : "");
+}
+
+bool Results::are_counts() const {
+    return std::all_of(runs.begin(), runs.end(),
+                       [](RunRow const& run) { return run.reward >= 0 && run.reward == std::round(run.reward); });
 }
 
 Results collect_results(CampaignPlan const& plan, CampaignDirectory const& directory) {
@@ -203,7 +232,7 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         results.populations.insert(results.populations.end(), populations.begin(), populations.end());
         if (name == plan.source.name) continue;
         targets.push_back({name, {}});
-        for (FinishedRun const& run : runs) targets.back().curves.push_back(best_balls(run.progress));
+        for (FinishedRun const& run : runs) targets.back().curves.push_back(best_rewards(run.progress));
     }
     add_speeds(plan, targets, results);
     results.bases = knowledge_rows(plan, directory, recorded_choice(directory));

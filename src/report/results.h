@@ -3,23 +3,26 @@
 #include "speed.h"
 
 #include <lore/campaign/replay.h>
+#include <lore/world/reward_text.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lore {
 
-/// A finished run: a row of final.csv (treatment to balls) and of runs.csv.
+/// A finished run: a row of final.csv (treatment to reward) and of runs.csv.
 struct RunRow {
     std::string treatment;
     int run = 0;
     std::uint64_t seed = 0;
-    int balls = 0;   ///< of its best-of-run
+    double reward = 0;   ///< of its best-of-run
     int generations = 0;
     std::uint64_t evaluations = 0;
     std::string signature;
     std::string version;   ///< of Lore, with its commit
+    std::string reward_unit{first_reward_unit};
 };
 
 /// The mean best-of-run of a treatment's finished runs at one generation: a row of curves.csv.
@@ -27,7 +30,7 @@ struct CurveRow {
     std::string treatment;
     int generation = 0;
     int runs = 0;
-    double mean = 0;            ///< [balls]
+    double mean = 0;            ///< [reward unit]
     double low = 0, high = 0;   ///< 95 % percentile bootstrap band of the mean
 };
 
@@ -36,10 +39,10 @@ struct PopulationRow {
     std::string treatment;
     int generation = 0;   ///< 0, 1, 2, 5, 10, 20, 50 and so on, and the last
     int runs = 0;
-    double mean_balls = 0;                ///< of the survivors
+    double mean_reward = 0;               ///< of the survivors
     double fronts = 0;                    ///< of the joint ranking
     double tied = 0;                      ///< survivors that share all objectives with another
-    double best_shaping = 0;              ///< [balls]; -1 without a knowledge base
+    double best_shaping = 0;              ///< [reward unit]; -1 without a knowledge base
     double shaping_at_max = 0;            ///< share of the survivors that have it
     double connections = 0, hidden = 0;   ///< of the survivors' networks
 };
@@ -50,7 +53,7 @@ struct KnowledgeRow {
     std::string kind;   ///< "lineage", "all", "random", "reduced"
     int source_run = 0;
     std::uint64_t seed = 0;          ///< of that run
-    int balls = 0;                   ///< of its best-of-run
+    double reward = 0;               ///< of its best-of-run
     std::uint64_t individuals = 0;   ///< whose windows were read: the lineage's length
     std::uint64_t windows = 0;
     int features = 0;
@@ -71,7 +74,15 @@ struct Results {
     std::vector<Replay> replays;
     std::vector<PanelValues> panels;
 
-    std::vector<double> final_balls(std::string_view treatment) const;
+    std::vector<double> final_rewards(std::string_view treatment) const;
+    /// The unit of that treatment's runs; nothing if it has none.
+    std::optional<std::string> unit_of(std::string_view treatment) const;
+    /// The unit of the target task's rewards; of the source task's as long as there is no target run.
+    std::string reward_unit(CampaignPlan const&) const;
+    /// "balls" if all runs have that unit, else "reward": in the names of columns.
+    std::string_view reward_word() const;
+    /// Whether all rewards are whole and none is negative: then something is counted.
+    bool are_counts() const;
 };
 
 /// Gathers the finished runs and knowledge bases of a campaign from its directory; replays and panels stay empty.

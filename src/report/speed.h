@@ -9,13 +9,14 @@
 
 namespace lore {
 
-/// The balls whose first collection is timed.
-inline constexpr std::array<int, 3> timed_balls{1, 3, 5};
+/// Those that are timed where the reward has the unit of the first worlds.
+inline constexpr std::array<double, 3> first_reward_levels{1, 3, 5};
 
-/// When the runs of a treatment first have so many balls. A run's time is the first generation whose best individual
-/// has them, and `generations` of SpeedRow where that is later or never: the mean is the restricted mean (Irwin 1949).
-struct TimeToBalls {
-    int reached = 0;            ///< runs that have them by then
+/// When the runs of a treatment first have so much reward. A run's time is the first generation whose best individual
+/// has it, and `generations` of SpeedRow where that is later or never: the mean is the restricted mean (Irwin 1949).
+struct TimeToLevel {
+    double level = 0;           ///< [reward unit]
+    int reached = 0;            ///< runs that have it by then
     double mean = 0;            ///< [generations]
     double low = 0, high = 0;   ///< 95 % percentile bootstrap interval of the mean
     double median = 0;          ///< of the same times [generations]
@@ -26,20 +27,27 @@ struct SpeedRow {
     std::string treatment;
     int runs = 0;
     int generations = 0;   ///< those that the runs of all target treatments have; later ones do not count
-    std::array<TimeToBalls, timed_balls.size()> to;   ///< of timed_balls
-    double area = 0;   ///< under the mean curve of best balls, from generation 0 [balls x generations]: trapezoids
+    std::vector<TimeToLevel> to;
+    double area = 0;   ///< under the mean curve of the best reward, from generation 0 [reward unit x generations]:
+                       ///< trapezoids
     double area_low = 0, area_high = 0;   ///< 95 % percentile bootstrap interval
 };
 
-/// `curves`: best balls by generation, from 0, a run each. Precondition: at least one, and each has the generations
-/// 0 to `generations`.
-SpeedRow speed_of(std::string treatment, std::span<std::vector<int> const> curves, int generations);
+/// `curves`: best reward by generation, from 0, a run each; `levels`: those that are timed. Precondition: at least one,
+/// and each has the generations 0 to `generations`.
+SpeedRow speed_of(std::string treatment, std::span<std::vector<double> const> curves, int generations,
+                  std::span<double const> levels);
 
-/// The mean best balls of a treatment's runs at one generation.
+/// The levels that a campaign file names in [report]. Else those of the first worlds, 1, 3 and 5, for their unit; for
+/// others 25, 50 and 75 % of the way from the worst to the best of `finals`, all runs' rewards at the end; none where
+/// these are equal.
+std::vector<double> timed_levels(CampaignPlan const&, std::string_view reward_unit, std::span<double const> finals);
+
+/// The mean best reward of a treatment's runs at one generation.
 struct Milestone {
     std::string treatment;
     int generation = 0;
-    double balls = 0;
+    double reward = 0;
 };
 
 /// How much of a policy's lead over no transfer another treatment has at one generation: a row of leads.csv.
@@ -48,8 +56,8 @@ struct LeadRow {
     std::string policy;   ///< the treatment whose founders come from the source run of the same base
     std::string none;     ///< the treatment that takes nothing from the source
     int generation = 0;
-    double balls = 0, policy_balls = 0, none_balls = 0;   ///< means over the runs
-    double share = 0;                                     ///< (balls - none_balls) / (policy_balls - none_balls)
+    double reward = 0, policy_reward = 0, none_reward = 0;   ///< means over the runs
+    double share = 0;                                        ///< (reward - none_reward) / (policy_reward - none_reward)
 };
 
 /// Every target treatment that takes a base beside the policy treatment of the same source run, at the generations of

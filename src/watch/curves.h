@@ -16,16 +16,16 @@ struct FileStamp {
 /// All 0 where there is no such file.
 FileStamp stamp_of(std::string const& path);
 
-/// The best balls by generation of many runs; a run is read again only when its progress.csv has changed.
+/// The best reward by generation of many runs; a run is read again only when its progress.csv has changed.
 class ProgressMemory {
 public:
     /// From generation 0; empty if there is nothing to read. A file that is damaged gives what was read last.
-    std::vector<int> const& best_balls(std::string const& run_directory);
+    std::vector<double> const& best_rewards(std::string const& run_directory);
 
 private:
     struct Entry {
         FileStamp stamp;
-        std::vector<int> balls;
+        std::vector<double> rewards;
     };
     std::map<std::string, Entry> entries_;
 };

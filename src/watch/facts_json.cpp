@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace lore {
@@ -13,30 +14,48 @@ using Json = nlohmann::ordered_json;
 
 double rounded(double value) { return std::round(value * 1000) / 1000; }
 
+bool is_first(std::string_view unit) { return unit == first_reward_unit; }
+
+/// A mean of rewards: 3 decimals, or 5 digits where they may be small.
+double shown(double value, std::string_view unit) {
+    return is_first(unit) ? rounded(value) : std::stod(fmt::format("{:.5g}", value));
+}
+
+/// Whole numbers without a decimal point.
+Json number(double value) {
+    if (std::abs(value) < 1e15 && value == std::round(value)) return static_cast<std::int64_t>(value);
+    return value;
+}
+
 Json step_json(StepWithState const& entry) {
     auto const& [step, state] = entry;
     Json json{{"name", step.name}, {"group", step.group}, {"state", name(state.status)}, {"reason", state.reason}};
     if (state.generations == 0) return json;   // no run
     json["generation"] = state.generation;
     json["generations"] = state.generations;
-    json["balls"] = state.best_balls;
+    json[std::string{reward_word(state.reward_unit)}] = number(state.best_reward);
+    if (!is_first(state.reward_unit)) json["reward_unit"] = state.reward_unit;
     json["seconds"] = rounded(state.seconds);
     return json;
 }
 
 Json treatment_json(TreatmentFacts const& facts) {
     Json curve = Json::array();
-    for (MeanPoint const& point : facts.curve) curve.push_back({point.generation, rounded(point.mean), point.runs});
-    return {{"name", facts.name},
-            {"label", facts.label},
-            {"runs", facts.planned},
-            {"started", facts.started},
-            {"done", facts.done},
-            {"running", facts.running},
-            {"failed", facts.failed},
-            {"mean_balls", rounded(facts.mean_balls)},
-            {"best_balls", facts.best_balls},
-            {"curve", curve}};
+    for (MeanPoint const& point : facts.curve)
+        curve.push_back({point.generation, shown(point.mean, facts.reward_unit), point.runs});
+    std::string const word{reward_word(facts.reward_unit)};
+    Json json{{"name", facts.name},
+              {"label", facts.label},
+              {"runs", facts.planned},
+              {"started", facts.started},
+              {"done", facts.done},
+              {"running", facts.running},
+              {"failed", facts.failed},
+              {"mean_" + word, shown(facts.mean_reward, facts.reward_unit)},
+              {"best_" + word, number(facts.best_reward)},
+              {"curve", curve}};
+    if (!is_first(facts.reward_unit)) json["reward_unit"] = facts.reward_unit;
+    return json;
 }
 
 template <class Items, class Function>
@@ -62,11 +81,13 @@ std::string facts_json(CampaignFacts const& facts) {
         return Json{{"step", failure.step}, {"reason", failure.reason}, {"log", failure.log}, {"tail", failure.tail}};
     });
     Json const champions = list(facts.champions, [](Champion const& champion) {
-        return Json{{"run", champion.run},
-                    {"label", champion.label},
-                    {"balls", champion.balls},
-                    {"signature", champion.signature},
-                    {"problem", champion.problem}};
+        Json json{{"run", champion.run},
+                  {"label", champion.label},
+                  {std::string{reward_word(champion.reward_unit)}, number(champion.reward)},
+                  {"signature", champion.signature},
+                  {"problem", champion.problem}};
+        if (!is_first(champion.reward_unit)) json["reward_unit"] = champion.reward_unit;
+        return json;
     });
     Json const document{{"title", facts.title},
                         {"directory", facts.directory},

@@ -2,6 +2,7 @@
 
 #include <lore/campaign/board.h>
 #include <lore/core/progress.h>
+#include <lore/world/reward_text.h>
 
 #include <algorithm>
 #include <map>
@@ -27,20 +28,25 @@ std::size_t shown_bytes(std::string_view text) {
     return control ? 0 : length;
 }
 
-std::string balls(int number) { return fmt::format("{} {}", number, number == 1 ? "ball" : "balls"); }
-
 std::string run_line(Step const& step, StepState const& state) {
     if (state.generations == 0) return fmt::format("  {:<22} at work", step.name);
     double const share = static_cast<double>(state.generation) / state.generations;
     double const left = state.generation > 0 ? state.seconds / share - state.seconds : 0;
     return fmt::format("  {:<22} {} {:>6}/{}  best {}{}", step.name, bar(share, 20), state.generation,
-                       state.generations, balls(state.best_balls),
+                       state.generations, reward_text(state.best_reward, state.reward_unit),
                        left > 0 ? fmt::format("  {} left", duration_text(left)) : "");
+}
+
+/// Of counts with two decimals.
+std::string mean_text(TreatmentFacts const& facts) {
+    return facts.reward_unit == first_reward_unit ? fmt::format("{:.2f}", facts.mean_reward)
+                                                  : reward_text(facts.mean_reward);
 }
 
 std::string treatment_line(TreatmentFacts const& facts) {
     std::string line = fmt::format("  {:<22} {:>4} of {:<4} done", facts.name, facts.done, facts.planned);
-    if (facts.started > 0) line += fmt::format("  mean {:.2f}, best {}", facts.mean_balls, balls(facts.best_balls));
+    if (facts.started > 0)
+        line += fmt::format("  mean {}, best {}", mean_text(facts), reward_text(facts.best_reward, facts.reward_unit));
     if (facts.failed > 0) line += fmt::format("  {} failed", facts.failed);
     return line;
 }

@@ -29,6 +29,13 @@ const called = state => state === "missing" ? "not started" : state;
 const color = index => index === 0 ? "var(--source)" : `var(--c${(index - 1) % 8})`;
 const dashes = index => index > 8 ? "7 3" : "none";   // the second round of colors
 
+// Rewards have the name of their unit where something is counted, and else a unit beside them.
+const unitOf = facts => facts.reward_unit ?? "balls";
+const best = facts => facts.best_balls ?? facts.balls ?? facts.best_reward ?? facts.reward;
+const inDigits = value => Number.isInteger(value) ? String(value) : String(Number(value.toPrecision(4)));
+const mean = facts => facts.mean_balls !== undefined ? facts.mean_balls.toFixed(2) : inDigits(facts.mean_reward);
+const withUnit = (value, facts) => `${typeof value === "number" ? inDigits(value) : value} ${unitOf(facts)}`;
+
 function showSummary(facts) {
   document.title = `${Math.floor(100 * facts.share)} % - ${facts.title}`;
   say("title", facts.title);
@@ -57,7 +64,7 @@ function showWork(facts) {
     const left = step.generation > 0 ? duration(step.seconds / step.generation * (step.generations - step.generation)) : "";
     return element("tr", {}, name, element("td", { class: "wide-only" }, bar),
       element("td", { class: "number" }, `${step.generation} of ${step.generations}`),
-      element("td", { class: "number" }, String(step.balls)), element("td", { class: "number" }, left));
+      element("td", { class: "number" }, withUnit(best(step), step)), element("td", { class: "number" }, left));
   }));
 }
 
@@ -80,7 +87,7 @@ function showTreatments(facts) {
     const began = treatment.started > 0;
     return element("tr", {}, element("th", { scope: "row" }, swatch, treatment.label),
       number(`${treatment.done} of ${treatment.runs}`), number(String(treatment.running)), number(String(treatment.failed), "wide-only"),
-      number(began ? treatment.mean_balls.toFixed(2) : ""), number(began ? String(treatment.best_balls) : ""));
+      number(began ? withUnit(mean(treatment), treatment) : ""), number(began ? withUnit(best(treatment), treatment) : ""));
   }));
 }
 
@@ -95,17 +102,20 @@ function drawChart(treatments) {
   const withLabels = width > 560;
   const left = 46, right = withLabels ? 150 : 14, top = 12, bottom = 42;
   const mostX = Math.max(1, ...treatments.map(treatment => treatment.curve.at(-1)[0]));
-  const mostY = Math.max(1, ...treatments.flatMap(treatment => treatment.curve.map(point => point[1])));
+  const unit = unitOf(treatments.at(-1)), means = treatments.flatMap(treatment => treatment.curve.map(point => point[1]));
+  const counted = unit === "balls", span = Math.max(...means) - Math.min(...means) || 1;
+  const leastY = counted ? 0 : Math.min(...means) - span * .04;
+  const mostY = counted ? Math.max(1, ...means) : Math.max(...means) + span * .04;
   const x = generation => left + (width - left - right) * generation / mostX;
-  const y = balls => height - bottom - (height - top - bottom) * balls / mostY;
+  const y = reward => height - bottom - (height - top - bottom) * (reward - leastY) / (mostY - leastY);
   const chart = element("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label":
-    "Mean balls of the best-of-run by generation. " + treatments.map(treatment =>
-      `${treatment.label}: ${treatment.curve.at(-1)[1].toFixed(2)} balls at generation ${treatment.curve.at(-1)[0]}`).join("; ") });
-  const stepX = Math.max(1, tickStep(mostX)), stepY = tickStep(mostY);
-  for (let k = 0; k * stepY <= mostY + 1e-9; ++k) {
-    const at = y(k * stepY), balls = Number((k * stepY).toPrecision(6));
+    `Mean reward of the best-of-run by generation [${unit}]. ` + treatments.map(treatment =>
+      `${treatment.label}: ${withUnit(treatment.curve.at(-1)[1], treatment)} at generation ${treatment.curve.at(-1)[0]}`).join("; ") });
+  const stepX = Math.max(1, tickStep(mostX)), stepY = tickStep(mostY - leastY);
+  for (let k = Math.ceil(leastY / stepY - 1e-9); k * stepY <= mostY + 1e-9 * stepY; ++k) {
+    const at = y(k * stepY), reward = Number((k * stepY).toPrecision(6));
     chart.append(element("line", { class: "grid", x1: left, x2: width - right, y1: at, y2: at }));
-    chart.append(element("text", { x: left - 6, y: at + 4, "text-anchor": "end" }, String(balls)));
+    chart.append(element("text", { x: left - 6, y: at + 4, "text-anchor": "end" }, String(reward)));
   }
   for (let k = 0; k * stepX <= mostX; ++k) {
     const at = x(k * stepX);
@@ -115,7 +125,7 @@ function drawChart(treatments) {
   chart.append(element("polyline", { class: "axis", points: `${left},${top} ${left},${height - bottom} ${width - right},${height - bottom}` }));
   chart.append(element("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, "generation"));
   chart.append(element("text", { x: 13, y: (top + height - bottom) / 2, "text-anchor": "middle",
-    transform: `rotate(-90 13 ${(top + height - bottom) / 2})` }, "best-of-run [balls]"));
+    transform: `rotate(-90 13 ${(top + height - bottom) / 2})` }, `best-of-run [${unit}]`));
   for (const treatment of treatments) {
     const whole = treatment.curve.filter(point => point[2] === treatment.started);
     const rest = treatment.curve.slice(Math.max(0, whole.length - 1));
@@ -144,7 +154,9 @@ function showCurves(facts) {
   const curves = facts.treatments.map((treatment, index) => ({ ...treatment, index })).filter(treatment => treatment.curve.length > 0);
   const targets = curves.filter(treatment => treatment.index > 0);
   if (!sourceWasChosen) byId("with-source").checked = targets.length === 0;
-  drawn = byId("with-source").checked ? curves : targets;
+  // Rewards of different units share no axis.
+  const sameUnit = curve => targets.length === 0 || unitOf(curve) === unitOf(targets.at(-1));
+  drawn = byId("with-source").checked ? curves.filter(sameUnit) : targets;
   byId("curves").hidden = curves.length === 0;
   byId("chart").hidden = drawn.length === 0;
   if (drawn.length > 0) drawChart(drawn);
@@ -163,15 +175,18 @@ async function showRobots(facts) {
   if (able.length > 0) {
     const section = byId("replay-template").content.cloneNode(true);
     section.getElementById("replay-chooser").append(...able.map((champion, k) => element("option", { value: k },
-      `${champion.label}: best of run ${champion.run.split("/").at(-1)}, ${champion.balls} ${champion.balls === 1 ? "ball" : "balls"}`)));
+      `${champion.label}: best of run ${champion.run.split("/").at(-1)}, ${withUnit(best(champion), champion)}`)));
     section.getElementById("replay-data").textContent = JSON.stringify(robots);
     parts.push(section);
   }
   for (const champion of facts.champions)
-    if (champion.problem !== "") parts.push(element("p", { class: "note" }, `${champion.run}, ${champion.balls} balls: ${champion.problem}`));
+    if (champion.problem !== "") parts.push(element("p", { class: "note" }, `${champion.run}, ${withUnit(best(champion), champion)}: ${champion.problem}`));
   byId("robots-here").replaceChildren(...parts);
   if (able.length > 0) {
-    startReplay();
+    const arenas = robots[0].arena !== undefined;
+    say("signs", "Of the finished runs. " + (arenas ? "@LORE_ARENA_SIGNS@" : "Green: the start. Red: where it is."));
+    if (arenas) startArenaReplay();
+    else startWorldReplay();
     // The target task is what the campaign is about; its robot comes last.
     const chooser = byId("replay-chooser");
     chooser.selectedIndex = able.length - 1;
@@ -208,12 +223,12 @@ function showSteps(facts) {
 function stepsTable(steps) {
   const heading = (text, kind = "text") => element("th", { scope: "col", class: kind }, text);
   const head = element("thead", {}, element("tr", {}, heading("step"), heading("state"), heading("generation", "number"),
-    heading("best [balls]", "number"), heading("what it says")));
+    heading("best", "number"), heading("what it says")));
   const rows = steps.map(step => {
     const isRun = step.generations !== undefined, began = isRun && (step.generation > 0 || step.state !== "missing");
     return element("tr", {}, element("th", { scope: "row" }, step.name), element("td", { class: `state-${step.state}` }, called(step.state)),
       element("td", { class: "number" }, began ? `${step.generation} of ${step.generations}` : ""),
-      element("td", { class: "number" }, began ? String(step.balls) : ""), element("td", {}, step.reason === called(step.state) ? "" : step.reason));
+      element("td", { class: "number" }, began ? withUnit(best(step), step) : ""), element("td", {}, step.reason === called(step.state) ? "" : step.reason));
   });
   return element("table", {}, head, element("tbody", {}, ...rows));
 }

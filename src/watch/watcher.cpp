@@ -36,20 +36,21 @@ TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory con
     facts.name = treatment.name;
     facts.label = treatment.label;
     facts.planned = treatment.runs;
-    std::vector<std::vector<int>> runs;
+    std::vector<std::vector<double>> runs;
     for (auto const& [step, state] : steps) {
         if (step.kind != StepKind::evolve || step.subject != treatment.name) continue;
         facts.done += state.status == StepStatus::done;
         facts.running += state.status == StepStatus::running;
         facts.failed += state.status == StepStatus::failed;
-        std::vector<int> const& balls = progress.best_balls(directory.run(step.name));
-        if (balls.empty()) continue;
+        if (facts.reward_unit.empty()) facts.reward_unit = state.reward_unit;
+        std::vector<double> const& rewards = progress.best_rewards(directory.run(step.name));
+        if (rewards.empty()) continue;
+        facts.best_reward = facts.started == 0 ? rewards.back() : std::max(facts.best_reward, rewards.back());
         ++facts.started;
-        facts.mean_balls += balls.back();
-        facts.best_balls = std::max(facts.best_balls, balls.back());
-        runs.push_back(balls);
+        facts.mean_reward += rewards.back();
+        runs.push_back(rewards);
     }
-    if (facts.started > 0) facts.mean_balls /= facts.started;
+    if (facts.started > 0) facts.mean_reward /= facts.started;
     facts.curve = mean_curve(runs);
     return facts;
 }
@@ -84,15 +85,15 @@ void add_progress(CampaignFacts& facts) {
     if (running > 0 && left > 0) facts.seconds_left = left / running;
 }
 
-/// The finished run of these treatments with most balls, the first among equals; nothing if none is finished.
+/// The finished run of these treatments with most reward, the first among equals; nothing if none is finished.
 std::optional<Champion> champion_of(CampaignPlan const& plan, std::vector<std::string> const& treatments,
                                     CampaignFacts const& facts) {
     std::optional<Champion> best;
     for (std::string const& name : treatments)
         for (auto const& [step, state] : facts.steps) {
             if (step.kind != StepKind::evolve || step.subject != name || state.status != StepStatus::done) continue;
-            if (best && state.best_balls <= best->balls) continue;
-            best = Champion{step.name, plan.treatment(name).label, state.best_balls, "", ""};
+            if (best && state.best_reward <= best->reward) continue;
+            best = Champion{step.name, plan.treatment(name).label, state.best_reward, state.reward_unit, "", ""};
         }
     return best;
 }

@@ -6,6 +6,7 @@
 #include <lore/core/error.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <numeric>
 #include <set>
@@ -157,6 +158,11 @@ private:
     ContractReport report_;
 };
 
+double now(Timekeeper timekeeper) {
+    if (timekeeper == Timekeeper::processor) return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 }   // namespace
 
 bool ContractReport::kept() const {
@@ -168,7 +174,7 @@ ContractReport check_contract(World const& world, std::function<std::unique_ptr<
     return Trial{world, reopen, config}.run();
 }
 
-double measure_speed(World const& world, int lives, double seconds) {
+double measure_speed(World const& world, int lives, double seconds, Timekeeper timekeeper) {
     constexpr int steps = 1000;
     WorldFacts const& facts = world.facts();
     auto const n = static_cast<std::size_t>(lives);
@@ -182,8 +188,8 @@ double measure_speed(World const& world, int lives, double seconds) {
     std::vector<float> sensors(facts.sensors.size() * n), x(n), y(n), rewards(n);
     std::vector<unsigned char> over(n);
     double done = 0;
-    std::clock_t const start = std::clock();   // processor time: other work on the machine does not count
-    auto const spent = [&] { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; };
+    double const start = now(timekeeper);
+    auto const spent = [&] { return now(timekeeper) - start; };
     auto const in_time = [&](std::size_t step) { return step % 64 != 63 || spent() < seconds; };
     do {
         auto const batch = world.begin_lives(lives);

@@ -1,6 +1,8 @@
 #include "foreign_world.h"
 
 #include "foreign_call.h"
+#include "refusal.h"
+#include "single_life.h"
 
 #include <lore/core/error.h>
 #include <lore/world/values.h>
@@ -106,11 +108,7 @@ public:
     }
 
 private:
-    void refuse(std::string const& why) const {
-        if (!why.empty())
-            throw Error(fmt::format("{} breaks its contract at step {}", world_.called(), steps_), why,
-                        "Mend it; 'lore-world check' finds such values.");
-    }
+    void refuse(std::string const& why) const { refuse_values(world_.called(), steps_, why); }
     template <class T>
     void refuse_overrun(WrittenArray<T> const& array, std::string_view name) const {
         if (array.overrun()) refuse(fmt::format("it wrote behind the end of the array '{}'", name));
@@ -126,29 +124,6 @@ private:
     std::vector<unsigned char> before_;
 };
 
-/// A batch of one.
-class ForeignLife final : public Life {
-public:
-    explicit ForeignLife(ForeignWorld const& world) : lives_(world, 1) {}
-
-    Position sense(std::span<float> sensors) const override {
-        Position at;
-        lives_.sense(sensors, {&at.x, 1}, {&at.y, 1});
-        return at;
-    }
-    StepResult act(std::span<float const> effectors) override {
-        StepResult result;
-        unsigned char over = 0;
-        lives_.act(effectors, {&result.reward, 1}, {&over, 1});
-        result.over = over != 0;
-        return result;
-    }
-    void outcome(std::span<float> values) const override { lives_.outcome(values); }
-
-private:
-    ForeignLives lives_;
-};
-
 }   // namespace
 
 ForeignWorld::~ForeignWorld() {
@@ -157,7 +132,7 @@ ForeignWorld::~ForeignWorld() {
     calls().close(world_);
 }
 
-std::unique_ptr<Life> ForeignWorld::begin() const { return std::make_unique<ForeignLife>(*this); }
+std::unique_ptr<Life> ForeignWorld::begin() const { return std::make_unique<SingleLife>(begin_lives(1)); }
 
 std::unique_ptr<Lives> ForeignWorld::begin_lives(int count) const {
     assert(count >= 1 && count <= facts_.max_batch);

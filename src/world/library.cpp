@@ -2,6 +2,7 @@
 
 #include "foreign_call.h"
 #include "foreign_world.h"
+#include "refusal.h"
 
 #include <lore/core/error.h>
 
@@ -22,21 +23,9 @@ static_assert(LORE_MOST_SENSORS == most_sensors && LORE_MOST_EFFECTORS == most_e
               LORE_LONGEST_NAME == longest_name && LORE_LARGEST_SIZE == largest_world &&
               LORE_LONGEST_SCENE == longest_scene);
 
-[[noreturn]] void refuse(std::string const& called, std::string_view why, std::string_view remedy) {
-    throw Error(fmt::format("cannot use {}", called), why, remedy);
-}
-
 /// Reads no further than one byte beyond `longest`, so that why_invalid says that it is too long.
 std::string text_of(char const* text, std::size_t longest) {
     return text == nullptr ? std::string{} : std::string(text, ::strnlen(text, longest + 1));
-}
-
-/// The reason of a library, in one line.
-std::string reason_of(std::span<char const> text) {
-    std::string reason = text_of(text.data(), text.size() - 1);
-    for (char& c : reason)
-        if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
-    return reason.empty() ? "it does not say why" : reason;
 }
 
 std::string missing_function(lore_world_v1 const& calls) {
@@ -70,10 +59,10 @@ std::vector<ChannelInfo> copy_of(lore_channel const* channels, int count) {
 /// The facts, once they are sure to be whole and right. Throws Error.
 WorldFacts checked_facts(lore_facts const* told, std::string const& called) {
     constexpr std::string_view remedy = "Mend it; lore/world.h has the rules.";
-    if (told == nullptr) refuse(called, "its function facts gave NULL", remedy);
+    if (told == nullptr) refuse_world(called, "its function facts gave NULL", remedy);
     for (std::string const& why : {why_uncountable("sensor", told->sensor_count, most_sensors, told->sensors),
                                    why_uncountable("effector", told->effector_count, most_effectors, told->effectors)})
-        if (!why.empty()) refuse(called, why, remedy);
+        if (!why.empty()) refuse_world(called, why, remedy);
     WorldFacts facts;
     facts.name = text_of(told->name, longest_name);
     facts.task = text_of(told->task, longest_name);
@@ -84,7 +73,7 @@ WorldFacts checked_facts(lore_facts const* told, std::string const& called) {
     facts.max_batch = told->max_batch;
     facts.width = told->width;
     facts.height = told->height;
-    if (std::string const why = why_invalid(facts); !why.empty()) refuse(called, why, remedy);
+    if (std::string const why = why_invalid(facts); !why.empty()) refuse_world(called, why, remedy);
     return facts;
 }
 
@@ -101,13 +90,13 @@ WorldLibrary::WorldLibrary(std::string const& file) : file_(file) {
     std::string const called = fmt::format("world {}", file);
     if (handle_ == nullptr) {
         char const* const why = ::dlerror();
-        refuse(called, why == nullptr ? "it cannot be loaded" : why,
-               "Compile it as a shared library for this machine (cc -shared -fPIC).");
+        refuse_world(called, why == nullptr ? "it cannot be loaded" : why,
+                     "Compile it as a shared library for this machine (cc -shared -fPIC).");
     }
     auto const entry = reinterpret_cast<lore_world_v1 const* (*)()>(::dlsym(handle_, "lore_world"));
     auto const give_up = [&](std::string const& why, std::string const& remedy) {
         ::dlclose(handle_);
-        refuse(called, why, remedy);
+        refuse_world(called, why, remedy);
     };
     if (entry == nullptr)
         give_up("it exports no function lore_world", "Define it as lore/world.h says, in C++ as extern \"C\".");
@@ -134,9 +123,7 @@ ForeignWorld::ForeignWorld(std::unique_ptr<WorldLibrary const> library, std::str
         world_ = calls().open(settings.c_str(), error.data(), static_cast<int>(error.size()));
     }
     error.back() = '\0';
-    if (world_ == nullptr)
-        throw UsageError(fmt::format("{} refuses its settings", called_), reason_of(error),
-                         "Correct [world.settings] of the configuration.");
+    if (world_ == nullptr) refuse_settings(called_, error.data());
     // From here on, what fails must close the world: the destructor does not run for half an object.
     struct Closer {
         ForeignWorld* world;
@@ -151,7 +138,7 @@ ForeignWorld::ForeignWorld(std::unique_ptr<WorldLibrary const> library, std::str
         scene_ = text_of(scene, longest_scene);
     }
     if (scene_.size() > longest_scene)
-        refuse(called_, fmt::format("its scene has more than {} bytes", longest_scene), "Draw less.");
+        refuse_world(called_, fmt::format("its scene has more than {} bytes", longest_scene), "Draw less.");
     called_ = fmt::format("{} from {}", title(facts_), library_->file());
     closer.world = nullptr;
 }

@@ -1,5 +1,7 @@
 #include "memory_growth.h"
 
+#include "process_world.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -29,11 +31,16 @@ struct Memory {
     std::int64_t resident = 0;   ///< of the whole process [bytes]
 };
 
-Memory memory_now() {
+/// Of the process in which the world's code runs; of another one the heap is not known.
+Memory memory_of(World const& world) {
+    auto const* const elsewhere = dynamic_cast<ProcessWorld const*>(&world);
     Memory now;
-    auto const heap = ::mallinfo2();
-    now.heap = static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
-    std::ifstream statm{"/proc/self/statm"};
+    if (elsewhere == nullptr) {
+        auto const heap = ::mallinfo2();
+        now.heap = static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
+    }
+    std::ifstream statm{
+        fmt::format("/proc/{}/statm", elsewhere == nullptr ? "self" : fmt::format("{}", elsewhere->link().process()))};
     std::int64_t size = 0;
     statm >> size >> now.resident;
     now.resident *= ::sysconf(_SC_PAGESIZE);
@@ -63,12 +70,12 @@ MemoryGrowth memory_growth(World const& world, int lives) {
 #ifdef LORE_HEAP_IS_KEPT
     growth.measured = "not measured: AddressSanitizer keeps what is freed";
     static_cast<void>(world);
-    static_cast<void>(memory_now);
+    static_cast<void>(memory_of);
     static_cast<void>(live_and_end);
 #else
     auto const round = [&] {
         for (int batch = 0; batch < batches_a_round; ++batch) live_and_end(world, lives);
-        return memory_now();
+        return memory_of(world);
     };
     // The first round may grow: allocators and worlds keep what they will use again. A leak grows in each of the
     // others.

@@ -50,6 +50,19 @@ OpenedWorld open_builtin(BuiltinWorld const& builtin, WorldRequest const& reques
     return {{"", 0, 0, request.settings}, builtin.open(task, request.settings)};
 }
 
+OpenedWorld open_process(WorldRequest const& request) {
+    WorldOrigin origin{"", 0, 0, request.settings, request.process};
+    std::vector<std::string> const files = files_of(request.process, request.folder);
+    std::string checksums;
+    for (std::string const& file : files) {
+        checksums += checksum_text(checksum_of_file(file));
+        origin.bytes += open_regular(file).size;
+    }
+    if (files.size() == 1) origin.checksum = checksum_of_file(files[0]);
+    else if (files.size() > 1) origin.checksum = checksum(checksums);
+    return {std::move(origin), start_world({request.process, request.folder, request.patience}, request.settings)};
+}
+
 [[noreturn]] void refuse_builtin(std::string const& name, std::span<BuiltinWorld const> builtins) {
     std::vector<std::string_view> names;
     for (BuiltinWorld const& builtin : builtins) names.push_back(builtin.name);
@@ -67,10 +80,32 @@ WorldRequest read_world_request(std::string const& config_file) {
     request.folder = fs::path{config_file}.parent_path().string();
     if (auto const world = file.table("world")) {
         request.name = world->string("library").value_or("");
+        request.process = world->strings("process").value_or(std::vector<std::string>{});
+        if (world->has("process") && (request.process.empty() || request.process[0].empty()))
+            world->fail("process", "it names no program", "Write [\"python3\", \"mine.py\"], for example.");
+        if (world->has("process") && world->has("library"))
+            world->fail("process", "the world is a library already", "Name one of both.");
+        if (world->has("patience") && request.process.empty())
+            world->fail("patience", "only a process has a time limit", "Remove it, or name a 'process'.");
+        request.patience = world->number("patience", 0.001, 86400).value_or(request.patience);
         if (auto const settings = world->table("settings")) request.settings = settings->lines();
         world->reject_unknown();
     }
     return request;
+}
+
+std::string text(WorldOrigin const& origin) {
+    return origin.command.empty() ? origin.file : fmt::format("{}", fmt::join(origin.command, " "));
+}
+
+std::vector<std::string> files_of(std::vector<std::string> const& command, std::string const& folder) {
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < command.size(); ++i) {
+        bool const along_path = i == 0 && command[0].find('/') == std::string::npos;
+        fs::path const path = fs::path{folder} / command[i];   // the word alone where it is absolute
+        if (!along_path && is_file(path)) files.push_back(path.string());
+    }
+    return files;
 }
 
 std::string find_library(std::string const& name, std::string const& folder) {
@@ -92,6 +127,7 @@ std::string find_library(std::string const& name, std::string const& folder) {
 }
 
 OpenedWorld open_world(WorldRequest const& request, std::span<BuiltinWorld const> builtins) {
+    if (!request.process.empty()) return open_process(request);
     std::size_t const colon = request.name.find(':');
     std::string const name = request.name.substr(0, colon);
     bool const is_path = request.name.find('/') != std::string::npos;

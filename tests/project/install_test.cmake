@@ -1,5 +1,6 @@
 # Installs the build into a scratch prefix, builds docs/examples/newcomers against it and runs it: it must evolve what
-# lore-evolve does. Then a world in C: compiled against the installed header, it keeps its contract.
+# lore-evolve does. Then a world in C, compiled against the installed header, and one in Python: they keep their
+# contract.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
 
@@ -21,6 +22,11 @@ file(COPY ${scratch}/prefix/share/lore/examples/pendulum DESTINATION ${scratch})
 run(output cc -std=c99 -pedantic -Wall -Werror -O2 -ffp-contract=off -shared -fPIC -I${scratch}/prefix/include
   ${scratch}/pendulum/pendulum.c -o ${scratch}/pendulum/pendulum.so -lm)
 run(output ${scratch}/prefix/bin/lore-world check --steps 100 --config ${scratch}/pendulum/source.toml)
+
+file(COPY ${scratch}/prefix/share/lore/examples/cartpole DESTINATION ${scratch})
+get_filename_component(python_folder ${PYTHON} DIRECTORY)   # of the one that has numpy
+run(output ${CMAKE_COMMAND} -E env PATH=${python_folder}:$ENV{PATH}
+  ${scratch}/prefix/bin/lore-world check --steps 100 --config ${scratch}/cartpole/source.toml)
 
 set(settings evolution.generations=3 evolution.population=20 evolution.founders=40 evolution.ties=older
   episode.steps=200)

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 import lore
-from support import STORED, LoreTest, evolve, program
+from support import OTHER_WORLD, STORED, LoreTest, evolve, program
 
 
 class Knowledge(LoreTest):
@@ -68,7 +68,7 @@ class Knowledge(LoreTest):
         arrays = self.exported(path)
         assert contrast is not None
         self.assertEqual(
-            {"success_balls": contrast.success_balls, "successes": contrast.successes, "failures": contrast.failures},
+            {"success_balls": contrast.success_reward, "successes": contrast.successes, "failures": contrast.failures},
             told,
         )
         np.testing.assert_array_equal(contrast.successes_that_showed, arrays["successes_that_showed"])
@@ -85,6 +85,30 @@ class Knowledge(LoreTest):
         nearest = found["feature"]
         np.testing.assert_allclose(distances[np.arange(len(windows)), nearest], found["distance"], atol=1e-5)
         np.testing.assert_array_equal(base.counts[nearest], found["count"])
+
+    def test_of_any_world_has_its_channels_by_name(self) -> None:
+        # tests/support/sample_archive.h: two features of three steps, bits counted up from 1 through all words.
+        base = lore.KnowledgeBase(OTHER_WORLD / "sample.lorekb")
+        self.assertEqual(base.channels, (*(f"sensor_{i}" for i in range(19)), "effector_0", "effector_1"))
+        self.assertEqual(base.binary_channels, (1, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20))
+        self.assertEqual(len(base.continuous_channels), 10)
+        self.assertEqual(base.reward_unit, "points")
+        self.assertEqual(base.provenance["best_points"], 2.5)
+        windows = base.windows()
+        self.assertEqual(windows.shape, (2, 3, 21))
+        self.assertTrue(np.all(windows[..., base.continuous_channels] == 0.25))
+        first_words = windows[..., base.binary_channels] @ (1 << np.arange(11))
+        np.testing.assert_array_equal(first_words, [[1, 3, 5], [7, 9, 11]])
+        np.testing.assert_array_equal(base.values, [1.5, -2.25])
+        assert base.contrast is not None
+        self.assertEqual(base.contrast.success_reward, 0.75)
+
+    def test_of_layout_1_is_of_collectball(self) -> None:
+        base = lore.KnowledgeBase(STORED / "sample.lorekb")
+        self.assertEqual(base.channels, lore.CHANNELS)
+        self.assertEqual(base.binary_channels, lore.BINARY)
+        self.assertEqual(base.continuous_channels, lore.CONTINUOUS)
+        self.assertEqual(base.reward_unit, "balls")
 
     def test_is_mapped_and_not_copied(self) -> None:
         tracemalloc.start()
@@ -123,6 +147,7 @@ class Knowledge(LoreTest):
             (64 + 4, struct.pack("<I", 0), "a window length of 0"),
             (64 + 8, struct.pack("<f", float("nan")), "a match threshold of nan"),
             (64 + 12, struct.pack("<I", 8), "8 binary"),
+            (64 + 12, struct.pack("<I", 99), "99 binary"),
             (64 + 24, struct.pack("<Q", 1 << 62), "do not fit its length"),
             (64 + 24, struct.pack("<Q", 1), "do not fit its length"),
             (64 + 40, struct.pack("<Q", 8), "evidence is of no known kind"),

@@ -15,6 +15,7 @@ from lore.programs import find_program
 
 SOURCE_DIR = pathlib.Path(__file__).resolve().parents[2]
 TASKS = SOURCE_DIR / "jobs" / "tasks"
+OTHER_WORLD = SOURCE_DIR / "tests" / "data" / "version-2" / "toy"
 STORED = SOURCE_DIR / "tests" / "data" / "version-1"
 PAPER = SOURCE_DIR / "docs" / "results" / "paper"
 SMALL = ["evolution.population=20", "evolution.founders=100", "evolution.generations=30", "episode.steps=2000"]

@@ -1,6 +1,7 @@
 #include "support/program.h"
 #include "support/small_run.h"
 
+#include <lore/collectball/collectball.h>
 #include <lore/archive/founders_file.h>
 #include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
@@ -36,7 +37,7 @@ protected:
         return lines;
     }
     static Genome genome_of(nlohmann::json const& individual) {
-        Genome genome;
+        Genome genome{Interface{collectball_channels()}};
         for (auto const& [source, target, gene] :
              individual.at("edges").get<std::vector<std::tuple<NeuronIndex, NeuronIndex, float>>>())
             genome.edges.push_back({source, target, gene});
@@ -103,7 +104,8 @@ TEST_F(LoreKb, builds_from_everybody_and_from_another_individual) {
     EXPECT_EQ(read_knowledge_base(scratch.file("all.lorekb")).provenance().individuals, 13u);
     expect_refusal("build run --every 5 --out x.lorekb", 2, "--all");
     expect_done("build run --individual 6.0 --window-length 10 --threshold 1 --out other.lorekb");
-    EXPECT_EQ(read_knowledge_base(scratch.file("other.lorekb")).config(), (KnowledgeConfig{10, 1.0f}));
+    EXPECT_EQ(read_knowledge_base(scratch.file("other.lorekb")).config(),
+              (KnowledgeConfig{10, 1.0f, collectball_channels()}));
     expect_refusal("build run --individual 99.0 --out x.lorekb", 2, "99.0");
     expect_refusal("build run --individual best-of --out x.lorekb", 2, "GENERATION.SLOT");
 }
@@ -204,7 +206,7 @@ TEST_F(LoreKb, prints_the_lineage_with_its_genomes_to_the_bit) {
         auto const& line = lines[i + 1];
         EXPECT_EQ(line.at("id"), text(birth.id));
         EXPECT_EQ(line.at("parent"), birth.parent ? nlohmann::json(text(birth.parent->id)) : nlohmann::json{});
-        EXPECT_EQ(line.at("balls"), birth.balls);
+        EXPECT_EQ(line.at("balls"), birth.reward);
         EXPECT_EQ(line.at("shaping"), birth.shaping);
         EXPECT_EQ(line.at("diversity"), birth.diversity);
         EXPECT_EQ(genome_of(line), birth.genome);
@@ -215,7 +217,8 @@ TEST_F(LoreKb, prints_where_founders_of_a_lineage_came_from) {
     LineageArchive const lineage = read_lineage(scratch.file("run/lineage.lore"));
     Population population;
     for (IndividualId const id : lineage.last_population) population.members.emplace_back().birth = lineage.find(id);
-    write_lineage(scratch.file("other.lore"), population, FoundersOrigin{"clones", "a \"b\"\xff.lore", "0123"});
+    write_lineage(scratch.file("other.lore"), population, lineage.world,
+                  FoundersOrigin{"clones", "a \"b\"\xff.lore", "0123"});
     auto const founders = individuals_of("other.lore").at(0).at("founders");
     EXPECT_EQ(founders.at("kind"), "clones");
     EXPECT_EQ(founders.at("path"), "a \"b\"\xef\xbf\xbd.lore");   // what is no UTF-8 is replaced
@@ -243,7 +246,8 @@ TEST_F(LoreKb, prints_everybody_founders_and_a_failed_individual) {
     EXPECT_EQ(founders.at(0).at("origin").at("base"), "kb.lorekb");
     EXPECT_EQ(genome_of(founders.at(2)), read_founders(scratch.file("founders.lore")).genomes.at(1));
 
-    write_genome(scratch.file("failed.lore"), {{3, 5}, lineage.births.front()->genome, 1, "it \"failed\""});
+    write_genome(scratch.file("failed.lore"),
+                 {{3, 5}, lineage.births.front()->genome, 1, "it \"failed\"", lineage.world});
     auto const failed = individuals_of("failed.lore");
     EXPECT_EQ(failed.at(0).at("reason"), "it \"failed\"");
     EXPECT_EQ(failed.at(1).at("id"), "3.5");
@@ -319,7 +323,7 @@ TEST_F(LoreKb, values_features_anew_from_the_evidence_of_the_build) {
     expect_refusal("revalue kb.lorekb --value mean --gamma 0.9 --out never", 2, "only return discounts");
     expect_refusal("revalue all.lorekb --value contrast --success 2 --out never", 2,
                    "its successes have 1 balls, not 2");
-    expect_refusal("revalue all.lorekb --value contrast --success 0 --out never", 2, "make no success");
+    expect_refusal("revalue all.lorekb --value contrast --success nan --out never", 2, "no finite number");
     expect_refusal("revalue kb.lorekb --value mean --success 1 --out never", 2, "only contrast counts them");
     expect_refusal("build run --value contrast --out never", 2, "a lineage has no contemporaries");
     expect_refusal("build run --value return --gamma 1 --out never", 2, "discount");
@@ -333,7 +337,8 @@ TEST_F(LoreKb, refuses_evidence_that_would_give_no_number) {
         arrays.evidence.gammas = {0.5};
         arrays.evidence.showings = {showings};
         arrays.evidence.return_sums = {return_sum};
-        write_knowledge_base(scratch.file("kb.lorekb"), KnowledgeBase{{1, 1.83f}, {}, std::move(arrays)});
+        write_knowledge_base(scratch.file("kb.lorekb"),
+                             KnowledgeBase{{1, 1.83f, collectball_channels()}, {}, std::move(arrays)});
     };
     std::string const revalue = "revalue kb.lorekb --value return --gamma 0.5 --out never";
     write(0, 0);

@@ -1,7 +1,8 @@
+#include "support/c_worlds.h"
 #include "support/program.h"
 #include "support/small_run.h"
 
-#include <lore/archive/trace_file.h>
+#include <lore/collectball/trace_file.h>
 
 #include <gmock/gmock.h>
 
@@ -28,7 +29,8 @@ TEST_F(LoreReplay, repeats_an_individual_of_a_run) {
     EXPECT_THAT(ran.output, HasSubstr("wrote replay/trace.csv"));
     Arena const arena = load_arena("collectball", "source");
     RunDirectory const archived = open_run(scratch.file("run"));
-    auto const steps = record_steps(arena, compile(archived.individual("best")->genome), archived.config.episode);
+    auto const steps =
+        record_steps(CollectballWorld{arena}, compile(archived.individual("best")->genome), archived.config.episode);
     EXPECT_EQ(read_trace_csv(scratch.file("replay/trace.csv"), arena), steps);
     EXPECT_THAT(content("replay/trajectory.svg"), HasSubstr("<svg"));
     EXPECT_THAT(content("replay/trajectory.png"), HasSubstr("PNG"));
@@ -45,6 +47,24 @@ TEST_F(LoreReplay, colors_the_trajectory_by_one_knowledge_base_or_by_the_product
     EXPECT_THAT(content("one/trajectory.svg"), HasSubstr("value (balls)"));
     expect_done("--kb kb.lorekb --kb kb.lorekb run --out two");
     EXPECT_THAT(content("two/trajectory.svg"), HasSubstr("product of 2 values (balls^2)"));
+}
+
+TEST_F(LoreReplay, shows_a_run_in_another_world_over_its_scene) {
+    test::write_small_run(scratch.file("run"), 1, {test::c_world("pendulum"), "", ""});
+    std::string const unit = open_run(scratch.file("run")).world.world->facts().reward_unit;
+    ASSERT_EQ(test::run_program(LORE_KB " build " + scratch.file("run") + " -q --out " + scratch.file("kb.lorekb"),
+                                scratch.path())
+                  .exit_code,
+              0);
+    test::Ran const ran = run("run --kb kb.lorekb --out replay");
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr(" " + unit + " in 400 steps, 20 of 20 windows in the knowledge base"));
+    EXPECT_THAT(content("replay/trace.csv"), StartsWith("step,x,y,in0,"));
+    EXPECT_THAT(content("replay/trajectory.svg"), HasSubstr("value (" + unit + ")"));
+    EXPECT_THAT(content("replay/trajectory.svg"), HasSubstr(">start</text>"));
+    EXPECT_THAT(content("replay/trajectory.png"), HasSubstr("PNG"));
+    test::write_small_run(scratch.file("arena"));
+    expect_refusal("arena --kb kb.lorekb --out never", 2, "cannot use kb.lorekb");
 }
 
 TEST_F(LoreReplay, drives_by_actions_and_follows_what_it_wrote) {
@@ -85,9 +105,9 @@ TEST_F(LoreReplay, refuses_wrong_files) {
 TEST_F(LoreReplay, refuses_a_run_whose_archive_tells_another_story) {
     test::write_small_run(scratch.file("run"));
     Population impostors;
-    impostors.members.emplace_back().birth =
-        std::make_shared<Birth>(Birth{{0, 0}, nullptr, founder(Stream{1, Purpose::test}), 99});
-    write_lineage(scratch.file("run/lineage.lore"), impostors);
+    impostors.members.emplace_back().birth = std::make_shared<Birth>(
+        Birth{{0, 0}, nullptr, founder(Interface{collectball_channels()}, Stream{1, Purpose::test}), 99});
+    write_lineage(scratch.file("run/lineage.lore"), impostors, open_run(scratch.file("run")).world.record());
     expect_refusal("run --out never", 1, "does not repeat");
 }
 

@@ -13,7 +13,7 @@ namespace lore {
 
 namespace {
 
-/// Balls and diversity as evolved; every sixth value of a knowledge base as a third objective.
+/// Reward and diversity as evolved; every sixth value of a knowledge base as a third objective.
 std::vector<Objectives> three_objectives() {
     std::vector<Objectives> points;
     for (Individual const& member : evolved_state().pool) {

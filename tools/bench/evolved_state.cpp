@@ -2,6 +2,8 @@
 
 #include "learned_base.h"
 
+#include <lore/collectball/collectball.h>
+
 namespace lore {
 
 std::vector<Descriptors const*> EvolvedState::descriptors() const {
@@ -10,8 +12,13 @@ std::vector<Descriptors const*> EvolvedState::descriptors() const {
     return pointers;
 }
 
+std::shared_ptr<World const> collectball(std::string const& task) {
+    return std::make_shared<CollectballWorld>(load_arena("collectball", task));
+}
+
 EvolvedState evolve_for(int generations, std::uint64_t seed, EvaluationContext context, EvolutionConfig config) {
     EvolvedState e{std::move(context), config, {}, {}};
+    e.config.interface = Interface{Channels{e.context.world->facts()}};
     e.config.generations = generations;
     SerialEvaluator evaluator{e.context};
     std::vector<Individual> parents;
@@ -25,7 +32,7 @@ EvolvedState evolve_for(int generations, std::uint64_t seed, EvaluationContext c
 }
 
 EvolvedState const& evolved_state() {
-    static EvolvedState const evolved = evolve_for(100, 1, {load_arena("collectball", "source"), {}, std::nullopt});
+    static EvolvedState const evolved = evolve_for(100, 1, {collectball("source"), {}, std::nullopt});
     return evolved;
 }
 
@@ -33,7 +40,7 @@ EvolvedState const& evolved_with_knowledge() {
     static EvolvedState const evolved = [] {
         EvolutionConfig config;
         config.use_shaping = true;
-        return evolve_for(50, 1, {load_arena("collectball", "target"), {}, Shaper{learned_base()}}, config);
+        return evolve_for(50, 1, {collectball("target"), {}, Shaper{learned_base()}}, config);
     }();
     return evolved;
 }

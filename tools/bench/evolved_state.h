@@ -2,6 +2,9 @@
 
 #include <lore/evolution/evolution.h>
 
+#include <memory>
+#include <string>
+
 namespace lore {
 
 /// A population as a run has it after its first steps, so that benchmarks see behaviors that are as alike, and
@@ -14,6 +17,9 @@ struct EvolvedState {
 
     std::vector<Descriptors const*> descriptors() const;
 };
+
+/// The built-in arena with this task.
+std::shared_ptr<World const> collectball(std::string const& task);
 
 /// From the founders of that seed.
 EvolvedState evolve_for(int generations, std::uint64_t seed, EvaluationContext, EvolutionConfig = {});

@@ -3,8 +3,12 @@
 //
 // Questions are the windows of one generation's children, in a target run that the base shapes. `exact` is asked by a
 // search that has answered for their parents before, as in a run; `exact_cold` by one that has just been made.
+//
+// `continuous` asks a base whose channels are all continuous: eight smooth ones, 24 000 features, half of the questions
+// match. `growing` is the exact index as a build asks it, `final` as evaluation does.
 #include "evolved_state.h"
 #include "learned_base.h"
+#include "smooth_base.h"
 
 #include <lore/core/isa.h>
 #include <lore/knowledge/shaping.h>
@@ -19,29 +23,29 @@ namespace {
 
 using Maker = std::unique_ptr<FeatureIndex> (*)();
 
-std::unique_ptr<FeatureIndex> scan() { return make_scan_index({}); }
-std::unique_ptr<FeatureIndex> exact() { return make_exact_index({}); }
-std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index({}, 4, 32); }
-std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index({}, 4, 128); }
+std::unique_ptr<FeatureIndex> scan() { return make_scan_index(usual_windows()); }
+std::unique_ptr<FeatureIndex> exact() { return make_exact_index(usual_windows()); }
+std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index(usual_windows(), 4, 32); }
+std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index(usual_windows(), 4, 128); }
 
 /// Of the last joint pool of the target run: the parents, or the children.
-Lives lives_of_half(std::size_t half) {
+Recordings lives_of_half(std::size_t half) {
     EvolvedState const& evolved = evolved_with_knowledge();
     std::vector<Birth const*> births;
     std::size_t const size = evolved.pool.size() / 2;
     for (std::size_t i = half * size; i < (half + 1) * size; ++i) births.push_back(evolved.pool[i].birth.get());
-    return {evolved.context.arena, evolved.context.episode, births};
+    return {*evolved.context.world, evolved.context.episode, births};
 }
-Lives const& parents() {
-    static Lives const lives = lives_of_half(0);
+Recordings const& parents() {
+    static Recordings const lives = lives_of_half(0);
     return lives;
 }
-Lives const& children() {
-    static Lives const lives = lives_of_half(1);
+Recordings const& children() {
+    static Recordings const lives = lives_of_half(1);
     return lives;
 }
 
-std::vector<Window> every(std::size_t stride, Lives const& lives) {
+std::vector<Window> every(std::size_t stride, Recordings const& lives) {
     std::vector<Window> windows;
     std::size_t number = 0;
     for (auto const& of_one : lives.windows)
@@ -118,6 +122,50 @@ void shaping(benchmark::State& state) {
     count_windows(state, children().windows.size() * children().windows[0].size());
 }
 
+using IndexMaker = std::unique_ptr<FeatureIndex> (*)(KnowledgeConfig const&);
+
+std::unique_ptr<FeatureIndex> flann_128_for(KnowledgeConfig const& config) { return make_flann_index(config, 4, 128); }
+std::unique_ptr<FeatureIndex> flann_32_for(KnowledgeConfig const& config) { return make_flann_index(config, 4, 32); }
+
+void continuous(benchmark::State& state, IndexMaker make, std::size_t stride, bool final) {
+    SmoothBase const& base = smooth_base();
+    auto const filled = [&](std::unique_ptr<FeatureIndex> index) {
+        for (Window const& window : base.known) index->add(window);
+        return index;
+    };
+    auto const index = filled(make(base.config)), truth_index = filled(make_exact_index(base.config));
+    if (final) index->set_values(std::vector<double>(base.known.size(), 1.0));
+    auto const search = index->search(), truth = truth_index->search();
+    std::vector<Window> questions;
+    for (std::size_t i = 0; i < base.asked.size(); i += stride) questions.push_back(base.asked[i]);
+    std::size_t found = 0, true_matches = 0;
+    for (auto _ : state) {
+        found = 0;
+        for (Window const& window : questions) found += search->match(window).found();
+    }
+    for (Window const& window : questions) true_matches += truth->match(window).found();
+    state.counters["features"] = static_cast<double>(base.known.size());
+    state.counters["recall"] = static_cast<double>(found) / static_cast<double>(true_matches);
+    count_windows(state, questions.size());
+}
+
+void register_continuous() {
+    struct Case {
+        char const* name;
+        IndexMaker make;
+        std::size_t stride;
+        bool final;
+    };
+    for (Case const& one : {Case{"exact_growing", make_exact_index, 1, false},
+                            {"exact_final", make_exact_index, 1, true},
+                            {"flann_4x32", flann_32_for, 4, false},
+                            {"flann_4x128", flann_128_for, 4, false},
+                            {"scan", make_scan_index, 100, false}})
+        benchmark::RegisterBenchmark(("knowledge/continuous/" + std::string{one.name}).c_str(), continuous, one.make,
+                                     one.stride, one.final)
+            ->Unit(benchmark::kMillisecond);
+}
+
 bool const registered = [] {
     Isa const best = detected_isa();
     for (int i = 0; i <= static_cast<int>(best); ++i) {
@@ -144,6 +192,7 @@ bool const registered = [] {
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("knowledge/query/scan", query, scan, best, Asking{2000})
         ->Unit(benchmark::kMillisecond);
+    register_continuous();
     benchmark::RegisterBenchmark("knowledge/shaping", shaping)->Unit(benchmark::kMillisecond);
     return true;
 }();

@@ -2,6 +2,7 @@
 
 #include "evolved_state.h"
 
+#include <lore/collectball/collectball.h>
 #include <lore/evolution/lineage.h>
 
 #include <algorithm>
@@ -21,17 +22,17 @@ constexpr School schools[]{{4, 150, 5}, {7, 100, 3}, {5, 100, 2}};
 
 }   // namespace
 
-Lives::Lives(Arena const& arena, EpisodeConfig const& episode, std::vector<Birth const*> const& individuals) {
+Recordings::Recordings(World const& world, EpisodeConfig const& episode, std::vector<Birth const*> const& individuals) {
     for (Birth const* individual : individuals) {
-        traces.push_back(record_episode(arena, compile(individual->genome), episode));
-        balls.push_back(individual->balls);
+        traces.push_back(record_episode(world, compile(individual->genome), episode));
+        rewards.push_back(individual->reward);
     }
-    for (Trace const& trace : traces) windows.push_back(windows_of(trace, KnowledgeConfig{}.window_length));
+    for (Trace const& trace : traces) windows.push_back(windows_of(trace, usual_windows().window_length));
 }
 
-Lives const& teachers() {
-    static Lives const lives = [] {
-        EvaluationContext const context{load_arena("collectball", "source"), {}, std::nullopt};
+Recordings const& teachers() {
+    static Recordings const recordings = [] {
+        EvaluationContext const context{collectball("source"), {}, std::nullopt};
         std::vector<EvolvedState> runs;
         std::vector<std::vector<Birth const*>> waiting;
         for (School const& school : schools) {
@@ -50,16 +51,17 @@ Lives const& teachers() {
                     mixed.push_back(waiting[i].back());
                     waiting[i].pop_back();
                 }
-        return Lives{context.arena, context.episode, mixed};
+        return Recordings{*context.world, context.episode, mixed};
     }();
-    return lives;
+    return recordings;
 }
 
+KnowledgeConfig usual_windows() { return {20, 1.83f, collectball_channels()}; }
+
 KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_index) {
-    KnowledgeBuilder builder{{}, std::move(empty_index)};
+    KnowledgeBuilder builder{usual_windows(), std::move(empty_index)};
     std::size_t const count = std::min(static_cast<std::size_t>(individuals), teachers().windows.size());
-    for (std::size_t i = 0; i < count; ++i)
-        builder.add_individual({teachers().windows[i], static_cast<double>(teachers().balls[i])});
+    for (std::size_t i = 0; i < count; ++i) builder.add_individual({teachers().windows[i], teachers().rewards[i]});
     Provenance provenance;
     provenance.made_by = "lore-bench";
     provenance.kind = "lineage";
@@ -69,7 +71,7 @@ KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_in
 }
 
 KnowledgeBase const& learned_base() {
-    static KnowledgeBase const base = build_base(usual_teachers, make_exact_index({}));
+    static KnowledgeBase const base = build_base(usual_teachers, make_exact_index(usual_windows()));
     return base;
 }
 

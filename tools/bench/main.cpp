@@ -75,7 +75,7 @@ int run(int argc, char** argv) {
     std::string_view const individuals = take_option("--individuals=", argc, argv);
     if (!path.empty()) {
         int const count = individuals.empty() ? lore::usual_teachers : count_in(individuals);
-        lore::KnowledgeBase const base = lore::build_base(count, lore::make_exact_index({}));
+        lore::KnowledgeBase const base = lore::build_base(count, lore::make_exact_index(lore::usual_windows()));
         lore::write_knowledge_base(std::string{path}, base);
         fmt::print("wrote {}: {} features from {} individuals\n", path, base.size(), base.provenance().individuals);
         return 0;

@@ -37,7 +37,7 @@ void evaluations_in(benchmark::State& state) {
     std::vector<Bytes> messages;
     std::size_t bytes = 0;
     for (Individual const& member : members) {
-        Delivery const delivery{0, {member.birth->balls, member.birth->shaping, {}, *member.descriptors}};
+        Delivery const delivery{0, {member.birth->reward, member.birth->shaping, {}, *member.descriptors}};
         messages.push_back(pack_deliveries(std::span{&delivery, 1}));
         bytes += messages.back().size();
     }

@@ -10,8 +10,11 @@ install(DIRECTORY include/lore DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MAT
 install(DIRECTORY jobs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs FILES_MATCHING PATTERN "*.toml" PATTERN
   "*.sbatch")
 
-install(DIRECTORY docs/examples/pendulum docs/examples/maze DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples
-  FILES_MATCHING PATTERN "*.c" PATTERN "*.toml")
+install(DIRECTORY docs/examples/pendulum docs/examples/maze docs/examples/pusher docs/examples/runner
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples FILES_MATCHING PATTERN "*.c" PATTERN "*.cpp" PATTERN "*.toml")
+# With the module that serves it: the folder can be copied.
+install(FILES docs/examples/cartpole/cartpole.py docs/examples/cartpole/source.toml docs/examples/cartpole/target.toml
+  tools/python/lore_world.py DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples/cartpole)
 
 configure_package_config_file(tools/cmake/LoreConfig.cmake.in ${PROJECT_BINARY_DIR}/LoreConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Lore)

@@ -3,6 +3,7 @@
 #include <lore/campaign/choice.h>
 #include <lore/campaign/plan.h>
 #include <lore/campaign/state.h>
+#include <lore/campaign/worlds.h>
 
 #include <fmt/ranges.h>
 
@@ -17,6 +18,7 @@ void plan_options(CLI::App& app, Arguments& arguments) {
 
 ExitCode print_plan(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
+    check_worlds(campaign);
     CampaignDirectory const directory{arguments.directory};
     auto const choice = recorded_choice(directory);
     bool const usable = choice && choice->covers(campaign);

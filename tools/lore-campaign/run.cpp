@@ -1,6 +1,7 @@
 #include "subcommand.h"
 
 #include <lore/campaign/plan.h>
+#include <lore/campaign/worlds.h>
 
 #include <algorithm>
 #include <thread>
@@ -23,7 +24,9 @@ ExitCode run_steps(Arguments const& arguments) {
     int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     options.jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores / options.launcher.ranks);
     options.quiet = arguments.quiet;
-    return run_campaign(read_campaign(arguments.file), CampaignDirectory{arguments.directory}, options);
+    CampaignPlan const campaign = read_campaign(arguments.file);
+    check_worlds(campaign);
+    return run_campaign(campaign, CampaignDirectory{arguments.directory}, options);
 }
 
 }   // namespace

@@ -2,6 +2,7 @@
 
 #include <lore/campaign/plan.h>
 #include <lore/campaign/slurm.h>
+#include <lore/campaign/worlds.h>
 
 #include <filesystem>
 
@@ -23,6 +24,7 @@ void submit_options(CLI::App& app, Arguments& arguments) {
 
 ExitCode submit_steps(Arguments const& arguments) {
     CampaignPlan campaign = read_campaign(arguments.file);
+    check_worlds(campaign);
     if (!arguments.time_limit.empty()) campaign.cluster.time_limit = arguments.time_limit;
     if (arguments.concurrent > 0) campaign.cluster.concurrent = arguments.concurrent;
     campaign.cluster.options.insert(campaign.cluster.options.end(), arguments.cluster_options.begin(),

@@ -25,13 +25,14 @@ struct BuildOptions {
     std::string value = "mean";
     std::optional<double> gamma;
     std::vector<double> gammas = default_gammas();
-    int success = 0;   ///< of all
+    std::optional<double> success;   ///< of all
 };
 
 KnowledgeConfig config_of(BuildOptions const& options, RunDirectory const& run) {
     KnowledgeConfig config = run.config.knowledge;
     config.window_length = options.window_length.value_or(config.window_length);
     config.match_threshold = options.threshold.value_or(config.match_threshold);
+    config.channels = Channels{run.world.world->facts()};
     if (config.window_length > run.config.episode.steps)
         throw UsageError(fmt::format("cannot build with windows of {} steps", config.window_length),
                          fmt::format("an evaluation of this run has {}", run.config.episode.steps),
@@ -107,8 +108,8 @@ void add_build(CLI::App& app, Program& program) {
         ->capture_default_str();
     command
         ->add_option("--success", options->success,
-                     "of contrast: so many balls make a success; default: half of what the best delivered")
-        ->check(CLI::Range(1, most_success_balls))
+                     "of contrast: so much reward makes a success; default: half of what the best got")
+        ->check(a_finite_number)
         ->needs(all);
 }
 

@@ -16,7 +16,7 @@ namespace lore::kb {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Fits = std::array<EffectorFit, effector_count>;
+using Fits = std::vector<EffectorFit>;
 
 struct CloneOptions {
     std::string base, out;
@@ -24,21 +24,23 @@ struct CloneOptions {
     bool json = false;
 };
 
-std::string_view name_of(std::size_t effector) { return channel_names[sensor_count + effector]; }
+std::string const& name_of(Channels const& channels, std::size_t effector) {
+    return channels[channels.sensors() + static_cast<int>(effector)].name;
+}
 
-Json to_json(Fits const& fits) {
+Json to_json(Channels const& channels, Fits const& fits) {
     Json json = Json::object();
     for (std::size_t e = 0; e < fits.size(); ++e)
-        json[std::string{name_of(e)}] = {{"cross_entropy", fits[e].cross_entropy},
-                                         {"absolute_error", fits[e].absolute_error}};
+        json[name_of(channels, e)] = {{"cross_entropy", fits[e].cross_entropy},
+                                      {"absolute_error", fits[e].absolute_error}};
     return json;
 }
 
-void print_fit(Clones const& clones) {
+void print_fit(Channels const& channels, Clones const& clones) {
     fmt::print("{:<12} {:>14} {:>14} {:>15} {:>14}\n", "effector", "cross-entropy", "of a constant", "absolute error",
                "of a constant");
-    for (std::size_t e = 0; e < effector_count; ++e)
-        fmt::print("{:<12} {:14.4f} {:14.4f} {:15.4f} {:14.4f}\n", name_of(e), clones.fit[e].cross_entropy,
+    for (std::size_t e = 0; e < clones.fit.size(); ++e)
+        fmt::print("{:<12} {:14.4f} {:14.4f} {:15.4f} {:14.4f}\n", name_of(channels, e), clones.fit[e].cross_entropy,
                    clones.constant[e].cross_entropy, clones.fit[e].absolute_error, clones.constant[e].absolute_error);
 }
 
@@ -46,6 +48,7 @@ void clone(Program const& program, CloneOptions const& options) {
     check_writable(options.out);
     KnowledgeBase const base = read_knowledge_base(options.base);
     CloneConfig const& config = options.config;
+    Channels const& channels = base.config().channels;
     Progress progress{"cloning", config.count, "founders", 50, program.quiet || options.json};
     Clones const clones = lore::clone(base, config, [&](int done) { progress.update(done, ""); });
     Json const origin{{"made_by", made_by(program)},
@@ -57,14 +60,14 @@ void clone(Program const& program, CloneOptions const& options) {
                       {"window_length", base.config().window_length},
                       {"hidden", config.hidden},
                       {"drawn", clones.all_alike ? "evenly" : "by value"},
-                      {"fit", to_json(clones.fit)},
-                      {"constant", to_json(clones.constant)}};
+                      {"fit", to_json(channels, clones.fit)},
+                      {"constant", to_json(channels, clones.constant)}};
     std::string const text = origin.dump(2, ' ', false, Json::error_handler_t::replace);
-    write_founders(options.out, {"clones of a knowledge base", text, clones.genomes});
+    write_founders(options.out, {"clones of a knowledge base", text, clones.genomes, world_record(base)});
     if (options.json) return fmt::print("{}\n", text);
     say(program, fmt::format("wrote {}: {} founders, each fitted to {} windows drawn {}", options.out, config.count,
                              config.windows, clones.all_alike ? "evenly, since all values are alike" : "by value"));
-    if (!program.quiet) print_fit(clones);
+    if (!program.quiet) print_fit(channels, clones);
 }
 
 }   // namespace
@@ -84,8 +87,9 @@ void add_clone(CLI::App& app, Program& program) {
         ->capture_default_str();
     command
         ->add_option("--hidden", config.hidden,
-                     "hidden neurons with random input weights; 36 + 15 each are the connections of a founder")
-        ->check(CLI::Range(0, std::min(most_hidden, most_cloned_hidden)))
+                     "hidden neurons with random input weights; a founder has a connection from each sensor to each "
+                     "effector, and one from or to each of them for each hidden neuron")
+        ->check(CLI::Range(0, most_hidden))
         ->capture_default_str();
     command->add_flag("--json", options->json, "print how the founders were made, and how well they fit, as JSON");
 }

@@ -24,6 +24,13 @@ CLI::Validator const a_number{[](std::string& text) {
                               },
                               ""};
 
+CLI::Validator const a_finite_number{[](std::string& text) {
+                                         return std::isfinite(std::strtod(text.c_str(), nullptr))
+                                                    ? std::string{}
+                                                    : fmt::format("'{}' is no finite number", text);
+                                     },
+                                     ""};
+
 void add_base(CLI::App* command, std::string& path) { command->add_option("KB", path, "knowledge base")->required(); }
 
 void add_out(CLI::App* command, std::string& path) {
@@ -53,7 +60,7 @@ void add_value(CLI::App* command, std::string& rule, std::optional<double>& gamm
     CLI::Option* const option = command->add_option(
         "--value", rule,
         "rule that gives the values: mean (of the rewards of those who showed a feature), return (discounted, "
-        "delivered after it was shown), contrast (log-odds of success against contemporaries), credit (gain of "
+        "of the steps after it was shown), contrast (log-odds of success against contemporaries), credit (gain of "
         "children in which it is new)");
     if (required) option->required();
     else option->capture_default_str();
@@ -84,7 +91,7 @@ void check_writable(std::string const& path) {
 }
 
 Trace trace_of(RunDirectory const& run, std::string const& individual) {
-    return record_episode(run.arena, compile(run.individual(individual)->genome), run.config.episode);
+    return record_episode(*run.world.world, compile(run.individual(individual)->genome), run.config.episode);
 }
 
 void write_derived(Program const& program, std::string const& out, KnowledgeBase const& derived,

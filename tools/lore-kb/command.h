@@ -58,6 +58,8 @@ void add_individual(CLI::App*, std::optional<std::string>&);
 void add_value(CLI::App*, std::string& rule, std::optional<double>& gamma, bool required);
 /// Refuses "nan", which CLI11 reads as a number within any range.
 extern CLI::Validator const a_number;
+/// Refuses infinity too.
+extern CLI::Validator const a_finite_number;
 
 /// Provenance::made_by: the command line and this version.
 std::string made_by(Program const&);

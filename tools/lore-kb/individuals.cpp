@@ -5,6 +5,7 @@
 #include <lore/archive/founders_file.h>
 #include <lore/archive/genome_file.h>
 #include <lore/core/error.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,13 +24,19 @@ struct IndividualsOptions {
     std::string path;
 };
 
+/// How the field of the reward is called; files that say no unit are older than others.
+std::string_view word_of(WorldRecord const& world) {
+    return reward_word(world.reward_unit.empty() ? first_reward_unit : std::string_view{world.reward_unit});
+}
+
 /// The first line. Names and paths in it may hold any bytes; those that are no UTF-8 are replaced.
-void print_header(FileKind kind, std::uint64_t individuals, Json const& further) {
+void print_header(FileKind kind, std::uint64_t individuals, WorldRecord const& world, Json const& further) {
     Json header{{"format", individuals_format},
                 {"kind", name(kind)},
                 {"individuals", individuals},
-                {"inputs", sensor_count},
-                {"outputs", effector_count}};
+                {"inputs", world.channels.sensors()},
+                {"outputs", world.channels.effectors()}};
+    if (word_of(world) != first_reward_unit) header["reward_unit"] = world.reward_unit;
     header.update(further);
     fmt::print("{}\n", header.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -65,35 +72,36 @@ void print_lineage(std::string const& path) {
         further["founders"] = {{"kind", lineage.founders->kind},
                                {"path", lineage.founders->path},
                                {"xxh3_64", lineage.founders->checksum}};
-    print_header(FileKind::lineage, lineage.births.size(), further);
+    print_header(FileKind::lineage, lineage.births.size(), lineage.world, further);
     for (auto const& birth : lineage.births) {
         std::optional<IndividualId> parent;
         if (birth->parent != nullptr) parent = birth->parent->id;
-        fmt::print("{{\"id\":\"{}\",\"parent\":{},\"balls\":{},\"shaping\":{},\"diversity\":{},{}}}\n", text(birth->id),
-                   parent_text(parent), birth->balls, birth->shaping, birth->diversity, genome_text(birth->genome));
+        fmt::print("{{\"id\":\"{}\",\"parent\":{},\"{}\":{},\"shaping\":{},\"diversity\":{},{}}}\n", text(birth->id),
+                   parent_text(parent), word_of(lineage.world), birth->reward, birth->shaping, birth->diversity,
+                   genome_text(birth->genome));
     }
 }
 
 /// All frames are checked before the first line is printed.
 void print_everybody(std::string const& path) {
     AllIndividualsSummary const all = check_all_individuals(path);
-    print_header(FileKind::all_individuals, all.individuals, {{"generation", all.generations - 1}});
-    for_each_individual(path, all.generations - 1, [](ArchivedIndividual const& one) {
-        fmt::print("{{\"id\":\"{}\",\"parent\":{},\"balls\":{},{}}}\n", text(one.id), parent_text(one.parent),
-                   one.balls, genome_text(one.genome));
+    print_header(FileKind::all_individuals, all.individuals, all.world, {{"generation", all.generations - 1}});
+    for_each_individual(path, all.generations - 1, [&](ArchivedIndividual const& one) {
+        fmt::print("{{\"id\":\"{}\",\"parent\":{},\"{}\":{},{}}}\n", text(one.id), parent_text(one.parent),
+                   word_of(all.world), one.reward, genome_text(one.genome));
     });
 }
 
 void print_founders(std::string const& path) {
     FoundersFile const founders = read_founders(path);
-    print_header(FileKind::founders, founders.genomes.size(),
+    print_header(FileKind::founders, founders.genomes.size(), founders.world,
                  {{"founders", founders.kind}, {"origin", Json::parse(founders.origin)}});
     for (Genome const& genome : founders.genomes) fmt::print("{{{}}}\n", genome_text(genome));
 }
 
 void print_failed(std::string const& path) {
     FailedIndividual const failed = read_genome(path);
-    print_header(FileKind::genome, 1, {{"rank", failed.rank}, {"reason", failed.reason}});
+    print_header(FileKind::genome, 1, failed.world, {{"rank", failed.rank}, {"reason", failed.reason}});
     fmt::print("{{\"id\":\"{}\",{}}}\n", text(failed.id), genome_text(failed.genome));
 }
 

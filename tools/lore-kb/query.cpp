@@ -29,7 +29,7 @@ void query(Program const& program, QueryOptions const& options) {
     check_writable(options.csv);
     KnowledgeBase const base = read_knowledge_base(options.base);
     int const length = base.config().window_length;
-    Trace const trace = options.run.empty() ? read_windows(options.windows, length)
+    Trace const trace = options.run.empty() ? read_windows(options.windows, base.config())
                                             : trace_of(open_run(options.run), options.individual.value_or("best"));
     Shaper const shaper{base, ShapingRule::max, index_choice(options.index, options.checks)};
     auto reader = shaper.reader();
@@ -56,7 +56,8 @@ void add_query(CLI::App& app, Program& program) {
     add_base(command, options->base);
     command->add_option("--run", options->run, "windows of an individual of this run");
     add_individual(command, options->individual);
-    command->add_option("--windows", options->windows, "windows from an NPY file, shape (n, T, 15) or (n, 15 T)");
+    command->add_option("--windows", options->windows,
+                        "windows from an NPY file, shape (n, T, C) or (n, C T), C channels");
     add_index(command, options->index, options->checks);
     command->add_option("--csv", options->csv, "file to write: window,step,feature,distance,value,count")->required();
 }

@@ -10,7 +10,7 @@ namespace {
 struct RevalueOptions {
     std::string base, out, value;
     std::optional<double> gamma;
-    std::optional<std::int64_t> success;
+    std::optional<double> success;
 };
 
 void revalue(Program const& program, RevalueOptions const& options) {
@@ -28,9 +28,11 @@ void add_revalue(CLI::App& app, Program& program) {
                     options, revalue);
     add_base(command, options->base);
     add_value(command, options->value, options->gamma, true);
-    command->add_option("--success", options->success,
-                        "of contrast: so many balls make a success; refused where the base was built with another "
-                        "number");
+    command
+        ->add_option("--success", options->success,
+                     "of contrast: so much reward makes a success; refused where the base was built with another "
+                     "number")
+        ->check(a_finite_number);
     add_out(command, options->out);
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace lore::world {
 
@@ -16,11 +17,13 @@ namespace {
 
 constexpr double seconds_of_measuring = 0.1;
 constexpr int usual_batch = 16;
+constexpr int usual_patience = 60;   ///< [s]
 
 struct CheckOptions {
     WorldOptions world;
     ContractConfig contract;
-    int patience = 60;   ///< for one call into the library [s]
+    /// For one call into a library or one answer of a process [s]; nothing: as the configuration says, or 60.
+    std::optional<int> patience;
 };
 
 /// Whether the scene can be drawn, as pictures will: inside a document of a size of its own.
@@ -49,28 +52,33 @@ void print_sample(World const& world, WorldSample const& sample) {
     if (sample.lives > 1 && !sample.effectors_matter) fmt::print("note         effectors changed nothing\n");
 }
 
-void print_speed(World const& world) {
+void print_speed(OpenedWorld const& opened) {
+    World const& world = *opened.world;
+    bool const is_elsewhere = !opened.origin.command.empty();
+    Timekeeper const timekeeper = is_elsewhere ? Timekeeper::wall : Timekeeper::processor;
     int const batch = std::min(usual_batch, world.facts().max_batch);
-    double const together = measure_speed(world, batch, seconds_of_measuring),
-                 alone = measure_speed(world, 1, seconds_of_measuring);
-    fmt::print("speed        {:.3g} million steps a second of one core in batches of {} ({:.0f} ns a step and life), "
+    double const together = measure_speed(world, batch, seconds_of_measuring, timekeeper),
+                 alone = measure_speed(world, 1, seconds_of_measuring, timekeeper);
+    fmt::print("speed        {:.3g} million steps a second{} in batches of {} ({:.0f} ns a step and life), "
                "{:.3g} million alone\n",
-               together / 1e6, batch, 1e9 / together, alone / 1e6);
+               together / 1e6, is_elsewhere ? " of wall time" : " of one core", batch, 1e9 / together, alone / 1e6);
 }
 
 void check(Program const& program, CheckOptions const& options) {
-    limit_world_calls(options.patience);
-    OpenedWorld const opened = open_world(options.world);
+    WorldRequest request = request_for(options.world);
+    if (options.patience) request.patience = *options.patience;
+    limit_world_calls(options.patience.value_or(usual_patience));
+    OpenedWorld const opened = open_world(request);
     World const& world = *opened.world;
     ContractReport report = check_contract(
-        world, [&] { return open_world(options.world).world; }, options.contract);
+        world, [&] { return open_world(request).world; }, options.contract);
     report.rules.push_back(scene_report(world));
     if (!program.quiet) {
         fmt::print("{}\n", called(opened));
         for (RuleReport const& rule : report.rules) print_rule(rule);
         if (report.sample.lives > 0) {
             print_sample(world, report.sample);
-            print_speed(world);
+            print_speed(opened);
         }
     }
     auto const broken = std::ranges::find(report.rules, false, &RuleReport::kept);
@@ -96,9 +104,11 @@ void add_check(CLI::App& app, Program& program) {
     command->add_option("--seed", options->contract.seed, "of the effectors")
         ->check(seed_digits)
         ->capture_default_str();
-    command->add_option("--patience", options->patience, "seconds that one call into a library may take")
-        ->check(CLI::Range(1, 86400))
-        ->capture_default_str();
+    command
+        ->add_option("--patience", options->patience,
+                     "seconds that one call into a library, or one answer of a process, may take [60, or what the "
+                     "configuration says of a process]")
+        ->check(CLI::Range(1, 86400));
     command->callback([&program, options] { program.chosen = [&program, options] { check(program, *options); }; });
 }
 

@@ -1,6 +1,6 @@
 #include "command.h"
 
-#include <lore/arena/collectball.h>
+#include <lore/collectball/collectball.h>
 
 #include <array>
 
@@ -13,7 +13,7 @@ void add_world(CLI::App* command, WorldOptions& options) {
                         "path of a library (with a '/'), name of one to look for, or built-in world and its task "
                         "(collectball:source)");
     command->add_option("--config", options.config,
-                        "configuration whose [world] names the library and holds its settings");
+                        "configuration whose [world] names the library or the process and holds its settings");
 }
 
 WorldRequest request_for(WorldOptions const& options) {
@@ -21,25 +21,27 @@ WorldRequest request_for(WorldOptions const& options) {
     if (!options.config.empty()) request = read_world_request(options.config);
     if (!options.world.empty()) {
         request.name = options.world;
+        request.process.clear();
         // A path on the command line begins where the user is; a name is looked for beside the configuration.
         if (options.world.find('/') != std::string::npos) request.folder.clear();
     }
-    if (request.name.empty() && options.config.empty())
+    bool const is_named = !request.name.empty() || !request.process.empty();
+    if (!is_named && options.config.empty())
         throw UsageError("no world is named", "WORLD or --config is expected", "See 'lore-world --help'.");
-    if (request.name.empty())
-        throw UsageError(fmt::format("{} names no world", options.config), "it has no world.library",
-                         "Add it, or name WORLD as well.");
+    if (!is_named)
+        throw UsageError(fmt::format("{} names no world", options.config),
+                         "it has no world.library and no world.process", "Add one of them, or name WORLD as well.");
     return request;
 }
 
-OpenedWorld open_world(WorldOptions const& options) {
+OpenedWorld open_world(WorldRequest const& request) {
     std::array const builtins{collectball_world};
-    return lore::open_world(request_for(options), builtins);
+    return lore::open_world(request, builtins);
 }
 
 std::string called(OpenedWorld const& opened) {
-    std::string const name = title(opened.world->facts());
-    return opened.origin.file.empty() ? name : fmt::format("{} from {}", name, opened.origin.file);
+    std::string const name = title(opened.world->facts()), origin = text(opened.origin);
+    return origin.empty() ? name : fmt::format("{} from {}", name, origin);
 }
 
 }   // namespace lore::world

@@ -22,8 +22,8 @@ struct WorldOptions {
 void add_world(CLI::App*, WorldOptions&);
 /// WORLD with the settings of --config, or the world that --config names. Throws UsageError where there is neither.
 WorldRequest request_for(WorldOptions const&);
-/// The same, opened.
-OpenedWorld open_world(WorldOptions const&);
+/// It, or a built-in world.
+OpenedWorld open_world(WorldRequest const&);
 /// "world pendulum short from ./pendulum.so"
 std::string called(OpenedWorld const&);
 

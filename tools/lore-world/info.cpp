@@ -44,6 +44,9 @@ void print_json(OpenedWorld const& opened) {
     if (!origin.file.empty())
         json["library"] = {
             {"file", origin.file}, {"bytes", origin.bytes}, {"checksum", checksum_text(origin.checksum)}};
+    if (!origin.command.empty())
+        json["process"] = {
+            {"command", origin.command}, {"bytes", origin.bytes}, {"checksum", checksum_text(origin.checksum)}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
@@ -64,10 +67,10 @@ void print_text(OpenedWorld const& opened) {
         end = origin.settings.find('\n', at);
         fmt::print("{:12} {}\n", at == 0 ? "settings" : "", origin.settings.substr(at, end - at));
     }
-    if (origin.file.empty()) fmt::print("library      none: it is built in\n");
+    if (std::string const from = text(origin); from.empty()) fmt::print("library      none: it is built in\n");
     else
-        fmt::print("library      {}, {} bytes, checksum {}\n", origin.file, origin.bytes,
-                   checksum_text(origin.checksum));
+        fmt::print("{:12} {}, {} bytes, checksum {}\n", origin.command.empty() ? "library" : "process", from,
+                   origin.bytes, checksum_text(origin.checksum));
 }
 
 }   // namespace
@@ -79,7 +82,7 @@ void add_info(CLI::App& app, Program& program) {
     command->add_flag("--json", options->json, "as JSON");
     command->callback([&program, options] {
         program.chosen = [options] {
-            OpenedWorld const opened = open_world(options->world);
+            OpenedWorld const opened = open_world(request_for(options->world));
             if (options->json) print_json(opened);
             else print_text(opened);
         };

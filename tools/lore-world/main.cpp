@@ -19,6 +19,7 @@ constexpr char const* examples =
     "  lore-world check ./pendulum.so                  a library by its path\n"
     "  lore-world check pendulum                       looked for here, in LORE_WORLD_PATH, in lib/lore/worlds\n"
     "  lore-world info --config pendulum/source.toml   the world of a configuration, with its settings\n"
+    "  lore-world check --config cartpole/source.toml  a world in Python: a process\n"
     "  lore-world info ./pendulum.so --config pendulum/target.toml --json\n"
     "  lore-world check collectball:source             a built-in world\n"
     "'lore-world COMMAND --help' has the options of a command.\n"

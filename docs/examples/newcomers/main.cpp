@@ -6,7 +6,7 @@
 #include <lore/archive/knowledge_file.h>
 #include <lore/core/error.h>
 #include <lore/evolution/summary.h>
-#include <lore/experiment/config.h>
+#include <lore/experiment/run_world.h>
 
 #include <algorithm>
 #include <charconv>
@@ -42,7 +42,9 @@ void evolve(std::string const& config_path, std::uint64_t seed, std::string cons
         shaper.emplace(lore::read_knowledge_base(knowledge));
         config.evolution.use_shaping = true;
     }
-    lore::SerialEvaluator evaluator{{lore::load_arena(config.arena, config.task), config.episode, shaper}};
+    lore::RunWorld const world = lore::open_run_world(config, lore::arena_text_of(config));
+    config.evolution.interface = world.record().interface();
+    lore::SerialEvaluator evaluator{{world.world, config.episode, shaper}};
     std::puts("generation,newcomers,tied,fronts");
     lore::EvolutionState const last =
         lore::evolve(config.evolution, seed, evaluator, {}, [](lore::GenerationReport const& report) {

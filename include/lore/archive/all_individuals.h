@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/archive/world_record.h>
 #include <lore/evolution/evolution.h>
 
 #include <cstddef>
@@ -30,8 +31,8 @@ struct AllIndividualsMark {
 
 class AllIndividualsWriter {
 public:
-    /// Starts a new file.
-    explicit AllIndividualsWriter(std::string path);
+    /// Starts a new file. Precondition: the genomes to come have the world's interface.
+    AllIndividualsWriter(std::string path, WorldRecord const&);
     /// Goes on after a checkpoint: cuts the file back to the mark, with the population of that moment. Throws Error if
     /// the file is shorter.
     AllIndividualsWriter(std::string path, AllIndividualsMark const&, Population const&);
@@ -53,7 +54,7 @@ struct ArchivedIndividual {
     IndividualId id;
     std::optional<IndividualId> parent;   ///< none for founders
     Genome const& genome;                 ///< valid during the call
-    int balls = 0;
+    double reward = 0;
 };
 
 /// Calls back for every individual in order of birth, up to and including generation `through`; memory is bounded by
@@ -65,7 +66,10 @@ struct AllIndividualsSummary {
     int generations = 0;
     std::uint64_t individuals = 0;
     std::uint64_t bytes = 0;
+    WorldRecord world;
 };
 AllIndividualsSummary check_all_individuals(std::string const& path);
+/// The world of a file, whose head alone is read. Throws Error.
+WorldRecord world_of_all_individuals(std::string const& path);
 
 }   // namespace lore

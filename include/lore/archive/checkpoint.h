@@ -2,6 +2,7 @@
 
 #include <lore/archive/all_individuals.h>
 #include <lore/archive/container.h>
+#include <lore/archive/world_record.h>
 #include <lore/evolution/evolution.h>
 
 #include <cstdint>
@@ -15,6 +16,7 @@ namespace lore {
 /// the rest are the run's books.
 struct Checkpoint {
     EvolutionState state;
+    WorldRecord world;   ///< the genomes have its interface
     std::uint64_t seed = 0;
     std::uint64_t config_digest = 0;   ///< of the settings that results depend on; must fit those resumed with
     std::uint64_t evaluations = 0, steps = 0;
@@ -25,7 +27,7 @@ struct Checkpoint {
 
 Bytes pack_checkpoint(Checkpoint const&);
 /// `name` is what errors call it.
-Checkpoint unpack_checkpoint(std::span<std::byte const> payload, std::string_view name);
+Checkpoint unpack_checkpoint(Payload const&, std::string_view name);
 
 /// The former checkpoint stays as `older`; at every moment one of the two is whole, and they are never the same file.
 /// If it cannot be written (full disk), both stay as they are.

@@ -25,8 +25,9 @@ enum class FileKind : std::uint32_t {
 };
 std::string_view name(FileKind);
 
-/// The format that this build writes, and the newest that it reads. Every older one stays readable.
-inline constexpr std::uint32_t container_version = 1;
+/// The format that this build writes, and the newest that it reads. Every older one stays readable. 1: files of
+/// collectball, which do not name their world.
+inline constexpr std::uint32_t container_version = 2;
 /// A payload starts at this offset of its file, so that arrays of a mapped payload are aligned like their file.
 inline constexpr std::size_t container_header_size = 64;
 
@@ -45,11 +46,17 @@ void write_container(std::string const& path, FileKind, std::span<std::byte cons
                      Packing = Packing::compressed);
 /// A plain one, to be mapped; in pieces, because a knowledge base of all individuals would not fit into memory twice.
 void write_plain_container(std::string const& path, FileKind, BytePieces payload);
+struct Payload {
+    Bytes bytes;
+    std::uint32_t version = container_version;   ///< of the format in which they are laid out
+};
 /// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
-Bytes read_container(std::string const& path, FileKind expected);
+Payload read_container(std::string const& path, FileKind expected);
 /// The same on bytes in memory, for tests and fuzzing; `name` is what errors call them.
 Bytes seal(FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);
-Bytes unseal(std::span<std::byte const> file, FileKind expected, std::string_view name);
+Payload unseal(std::span<std::byte const> file, FileKind expected, std::string_view name);
+/// Length of the container that begins with this header, the header included. Throws Error.
+std::uint64_t container_length(std::span<std::byte const> header, std::string_view name);
 
 /// The payload of a checked file. Of a plain one it is the mapped file itself, shared through the page cache by all
 /// processes of a node; of a compressed one a private copy. Valid as long as keep_alive.

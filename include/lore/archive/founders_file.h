@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/archive/container.h>
+#include <lore/archive/world_record.h>
 #include <lore/network/genome.h>
 
 #include <string>
@@ -9,19 +10,21 @@
 
 namespace lore {
 
-/// Genomes that a run may start from, made by `lore-kb clone`. The file also names the channels that they serve, in
-/// order and with those that are binary: controllers of another robot are refused.
+/// Genomes that a run may start from, made by `lore-kb clone`.
 struct FoundersFile {
     std::string kind;     ///< "clones of a knowledge base"
     std::string origin;   ///< how they were made: a JSON object (docs/manual/formats.md)
     std::vector<Genome> genomes;
+    WorldRecord world;   ///< whose channels they serve; the genomes have its interface
 };
 
 /// Atomic; throws Error (full disk, no permission), the former file survives.
 void write_founders(std::string const& path, FoundersFile const&);
-/// Throws Error: missing or damaged; UsageError: made for other sensors or effectors.
+/// Of any world. Throws Error: missing or damaged.
 FoundersFile read_founders(std::string const& path);
+/// For a world of these channels. Throws also UsageError: made for others, and how they differ.
+FoundersFile read_founders(std::string const& path, Channels const&);
 /// From a container's payload; `name` is what errors call it.
-FoundersFile unpack_founders(std::span<std::byte const> payload, std::string_view name);
+FoundersFile unpack_founders(Payload const&, std::string_view name);
 
 }   // namespace lore

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/archive/world_record.h>
 #include <lore/knowledge/knowledge_base.h>
 
 #include <string>
@@ -15,5 +16,7 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const&);
 /// Maps the file and checks it whole: header, lengths, checksum, and that every number is finite and in its range.
 /// Throws Error. The knowledge base keeps the mapping alive.
 KnowledgeBase read_knowledge_base(std::string const& path);
+/// What a base knows of its world: the channels and the unit of the reward.
+WorldRecord world_record(KnowledgeBase const&);
 
 }   // namespace lore

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <lore/archive/container.h>
+#include <lore/archive/world_record.h>
 #include <lore/evolution/individual.h>
 
 #include <cstddef>
@@ -22,6 +24,7 @@ struct FoundersOrigin {
 
 /// The lineages of a run, read back: every ancestor of the last population, in order of birth.
 struct LineageArchive {
+    WorldRecord world;
     std::vector<std::shared_ptr<Birth const>> births;   ///< in order of birth, parents linked
     std::vector<IndividualId> last_population;          ///< the members of the last population
     IndividualId best;                                  ///< best-of-run
@@ -32,9 +35,11 @@ struct LineageArchive {
 };
 
 /// Without an origin of the founders, the bytes are those of a run that knows of none.
-void write_lineage(std::string const& path, Population const&, std::optional<FoundersOrigin> const& = std::nullopt);
+/// Precondition: the genomes have the world's interface.
+void write_lineage(std::string const& path, Population const&, WorldRecord const&,
+                   std::optional<FoundersOrigin> const& = std::nullopt);
 LineageArchive read_lineage(std::string const& path);
 /// From a container's payload; `name` is what errors call it.
-LineageArchive unpack_lineage(std::span<std::byte const> payload, std::string_view name);
+LineageArchive unpack_lineage(Payload const&, std::string_view name);
 
 }   // namespace lore

@@ -13,6 +13,7 @@ namespace lore {
 /// processors of one byte order, so that numbers travel as they lie in memory; Readers throw Error on bytes that no
 /// writer wrote.
 
+/// Precondition: all have one interface.
 Bytes pack_genomes(std::span<Genome const* const>);
 std::vector<Genome> unpack_genomes(std::span<std::byte const>);
 
@@ -22,7 +23,8 @@ struct Delivery {
     Evaluation evaluation;
     friend bool operator==(Delivery const&, Delivery const&) = default;
 };
-/// One of 4000 steps takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before; at most 8.4 kB.
+/// One of 4000 steps and up to 16 channels takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before;
+/// at most 8.4 kB, and 8 kB for each further 16 channels.
 Bytes pack_deliveries(std::span<Delivery const>);
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
 

@@ -17,15 +17,15 @@ std::string distance_names();                        ///< of all, with commas be
 /// Behavioral distances d_1..d_4 (paper, "Dynamic behavioral diversity"): symmetric, 0 for equal descriptors. These
 /// are the definitions; measure_rows (distance_matrix.h) is the fast twin.
 
-/// Euclidean, over the coordinates of all balls; squares are summed ball by ball, x first. Precondition: equally many
-/// balls.
+/// Euclidean, over the numbers of the outcome; squares are summed in their order. Precondition: equally many numbers.
 double adhoc_distance(Descriptors const&, Descriptors const&);
-/// Fraction of the bits (bits_per_step a step) that differ; a step that only one of the two lived differs in all.
+/// Fraction of the bits, one a channel and step, that differ; a step that only one of the two lived differs in all.
+/// Precondition: equally many channels.
 double hamming_distance(Descriptors const&, Descriptors const&);
 /// Edit distance between tile sequences: insertion = deletion = 1, substitution (|dx| + |dy|) / 12, transposition of
 /// neighbors at the substitution cost of the pair. Computed in whole twelfths, so that sums are exact.
 double trajectory_distance(Descriptors const&, Descriptors const&);
-/// Euclidean, over the entropies of all channels, summed in their order.
+/// Euclidean, over the entropies of all channels, summed in their order. Precondition: equally many channels.
 double entropy_distance(Descriptors const&, Descriptors const&);
 
 double distance(DistanceKind, Descriptors const&, Descriptors const&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/campaign/plan.h>
+#include <lore/world/reward_text.h>
 
 #include <string>
 #include <vector>
@@ -11,16 +12,16 @@ namespace lore {
 struct SourceRun {
     int run = 0;
     std::uint64_t seed = 0;
-    int balls = 0;   ///< of its best-of-run
+    double reward = 0;   ///< of its best-of-run
 };
 
 /// The source run that a knowledge base comes from.
 struct ChosenRun {
     std::string knowledge;
-    double wished = 0;   ///< level wished [balls]; meaningless where the campaign names the run
+    double wished = 0;   ///< level wished [reward unit]; meaningless where the campaign names the run
     int run = 0;
     std::uint64_t seed = 0;
-    int balls = 0;
+    double reward = 0;
 };
 
 /// Which source runs the knowledge bases come from. What is recorded stays, so that runs added later change nothing.
@@ -28,6 +29,7 @@ struct Choice {
     std::vector<ChosenRun> chosen;
     std::vector<SourceRun> considered;   ///< all finished source runs
     std::vector<int> without;            ///< source runs that had failed
+    std::string reward_unit{first_reward_unit};
 
     /// Null if nothing was chosen for this knowledge base yet.
     ChosenRun const* find(std::string_view knowledge) const;
@@ -40,7 +42,7 @@ struct Choice {
 /// The rule. Runs named by the campaign are taken first; then, in the order of the campaign's file, each knowledge
 /// base gets the run whose best-of-run is nearest to the level wished among those not yet taken; ties: the lowest seed.
 ///
-/// What `before` has chosen is kept. Throws Error: too few runs, or a named run is not among them.
+/// What `before` has chosen is kept, and its unit. Throws Error: too few runs, or a named run is not among them.
 Choice choose_runs(CampaignPlan const&, std::vector<SourceRun> const& finished, std::vector<int> without,
                    Choice const& before = {});
 

@@ -39,18 +39,18 @@ struct KnowledgePlan {
     std::string name;
     std::string label;
     KnowledgeKind kind = KnowledgeKind::lineage;
-    double wished_balls = 0;            ///< lineage: the level wished of the source run's best-of-run [balls]
-    int run = 0;                        ///< lineage: this source run, whatever its balls; 0: choose by `wished_balls`
+    double wished_reward = 0;           ///< lineage: the level wished of the source run's best-of-run [reward unit]
+    int run = 0;                        ///< lineage: this source run, whatever its reward; 0: choose by `wished_reward`
     std::string base;                   ///< all but lineage: the knowledge base it starts from
     std::uint64_t seed = 1;             ///< random, permuted: of the draw
     std::optional<int> window_length;   ///< of its windows [steps]; without: the source runs'
     std::optional<double> match_threshold;   ///< of its matches [L2]; without: the source runs'
-    std::vector<double> gammas;           ///< of a base that is built: discounts of the returns it gathers, increasing;
-                                          ///< without: those of lore-kb
-    int success_balls = 0;                ///< all: what makes a success [balls]; 0: as lore-kb decides
-    ValueConfig value;                    ///< revalued: by this rule
-    std::vector<std::string> consensus;   ///< reduced: the knowledge bases that must know a feature too
-    std::vector<std::string> options;     ///< further arguments of lore-kb build or reduce
+    std::vector<double> gammas;   ///< of a base that is built: discounts of the returns it gathers, increasing;
+                                  ///< without: those of lore-kb
+    std::optional<double> success_reward;   ///< all: what makes a success [reward unit]; none: as lore-kb decides
+    ValueConfig value;                      ///< revalued: by this rule
+    std::vector<std::string> consensus;     ///< reduced: the knowledge bases that must know a feature too
+    std::vector<std::string> options;       ///< further arguments of lore-kb build or reduce
 };
 
 /// Which knowledge bases the pictures of trajectories show (paper, figures 5 and 6).
@@ -78,6 +78,7 @@ struct CampaignPlan {
     std::vector<KnowledgePlan> knowledge;    ///< each after those it is made from
     std::vector<Treatment> targets;          ///< in the order in which they are run
     std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
+    std::vector<double> levels;   ///< of the reward, whose first reaching is timed; empty: as the report chooses
     FigurePlan figures;
     ClusterPlan cluster;
 

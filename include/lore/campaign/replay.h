@@ -1,35 +1,39 @@
 #pragma once
 
+#include <lore/arena_view/replay.h>
 #include <lore/campaign/steps.h>
 #include <lore/figure/scene.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lore {
 
-/// Where the robot is and what has happened at the beginning of a step: a row of replay.csv.
+/// Where a life is at the beginning of a step, and what it has got so far: a row of replay.csv.
 struct ReplayStep {
-    float x = 0, y = 0, theta = 0;
-    bool carrying = false, door_open = false, switch_on = false;
-    unsigned balls_mask = 0;
-    int collected = 0;
+    float x = 0, y = 0;   ///< [u]
+    double reward = 0;    ///< of the steps before [reward unit]
 };
 
-/// The best-of-run of one run, step by step, in its arena.
+/// The best-of-run of one run, step by step, in its world.
 struct Replay {
     std::string run;         ///< the campaign's name of the run, "source/007"
     std::string signature;   ///< of that run
+    std::string reward_unit;
     Scene scene;
     std::vector<ReplayStep> steps;
+    std::optional<ArenaReplay> arena;   ///< of a run in an arena: what it shows besides; as many steps
 };
 
 /// What a knowledge base, or the product of several, says about the windows of the first replay: values.csv.
 struct PanelValues {
-    std::string figure;           ///< "figure5" or "figure6"
-    std::string knowledge;        ///< names joined by '*'
-    std::vector<double> values;   ///< per window; -1 where a single base, 0 where a product does not find it
-    std::string checksum = {};    ///< of the knowledge bases' files, joined by '*'; tells whether they are still those
+    std::string figure;      ///< "figure5" or "figure6"
+    std::string knowledge;   ///< names joined by '*'
+    /// Per window. One that is not found: in an arena -1 of a single base and 0 of a product; in other worlds, whose
+    /// values may be negative, NaN.
+    std::vector<double> values;
+    std::string checksum = {};   ///< of the knowledge bases' files, joined by '*'; tells whether they are still those
 };
 
 /// What the pictures of trajectories need, as the campaign's step "replay" leaves it in three files: replay.csv,
@@ -38,6 +42,9 @@ struct Replays {
     std::vector<Replay> replays;
     std::vector<PanelValues> panels;
 };
+
+/// Whether all of them show an arena, with all that happens in it; if not, all are shown by scene and position alone.
+bool all_in_arenas(std::vector<Replay> const&);
 
 /// scene.json is written last, so that it tells of the others.
 void write_replays(CampaignDirectory const&, Replays const&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/campaign/steps.h>
+#include <lore/world/reward_text.h>
 
 #include <optional>
 #include <string>
@@ -16,8 +17,9 @@ struct StepState {
     std::string reason;    ///< for people: "at generation 1200 of 4000", "exit code 1: ..."
     int generation = 0;    ///< of a run, as progress.csv says
     int generations = 0;   ///< that it is to reach
-    int best_balls = 0;
-    double seconds = 0;   ///< of wall time spent on it
+    double best_reward = 0;
+    std::string reward_unit;   ///< of the run's world; "" as long as it is not known
+    double seconds = 0;        ///< of wall time spent on it
 };
 
 /// A run is done when its manifest says so, and failed if it was made with other settings than planned. A knowledge
@@ -49,7 +51,7 @@ void clear_failure(CampaignDirectory const&, Step const&);
 /// The last complete line of a run's progress.csv; all 0 if there is none.
 struct RunProgress {
     int generation = 0;
-    int best_balls = 0;
+    double best_reward = 0;
     double seconds = 0;
 };
 RunProgress last_progress(std::string const& run_directory);

@@ -1,58 +1,53 @@
 #pragma once
 
-#include <lore/arena/world.h>
 #include <lore/network/network.h>
+#include <lore/world/channels.h>
+#include <lore/world/world.h>
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace lore {
 
 struct EpisodeConfig {
-    int steps = 4000;          ///< Length of an evaluation [steps]. Paper: 4000.
-    int stop_when_still = 0;   ///< Stop once more than this many steps in all went by without movement (position and
-                               ///< heading changed by at most 1e-4); 0: never. The predecessor: 100.
+    int steps = 4000;   ///< Length of an evaluation, unless the world ends it before [steps]. Paper: 4000.
+};
+
+/// A reward other than 0.
+struct Reward {
+    int step = 0;
+    float amount = 0;   ///< [the world's reward_unit]
+    friend bool operator==(Reward const&, Reward const&) = default;
 };
 
 /// The sensorimotor record of one evaluation, as windows, descriptors and knowledge bases read it.
 ///
-/// Per step: a word with one bit for every channel, and a float for each continuous one. 26 bytes a step for the
-/// paper's channels, 104 kB an evaluation of 4000 steps.
+/// Per step: a bit for every channel, and a float for each continuous one. 26 bytes a step for the channels of the
+/// paper, 104 kB an evaluation of 4000 steps.
 struct Trace {
-    /// Bits 0 .. binary_count - 1: the binary channels, in the order of binary_channels. Bits binary_count ..
-    /// channel_count - 1: whether a continuous channel is above 0.5 (a range sensor: nearer than half its range), in
-    /// the order of continuous_channels; only the Hamming descriptor reads these. Higher bits are 0.
+    Channels channels;
+    /// [step][Channels::words()]. Bit i, counted through the words of a step from the lowest of the first: of the
+    /// binary channels, in their order; then whether a continuous channel is above 0.5 (a range sensor: nearer than
+    /// half its range), in their order, which only the Hamming descriptor reads. Higher bits are 0.
     std::vector<std::uint16_t> channel_bits;
-    /// [step][continuous_count], continuous_channels order.
-    std::vector<float> values;
-    std::vector<Pose> poses;       ///< before the move of that step
-    std::vector<int> deliveries;   ///< steps whose action delivered a ball, increasing
-    WorldState final_world;
+    std::vector<float> values;         ///< [step][Channels::continuous_count()]
+    std::vector<Position> positions;   ///< before the action of that step
+    std::vector<Reward> rewards;       ///< in order of steps
+    double reward = 0;                 ///< the sum of the rewards, in that order
+    std::vector<float> outcome;        ///< how it ended: Life::outcome
 
-    int steps() const { return static_cast<int>(channel_bits.size()); }
+    int steps() const { return static_cast<int>(positions.size()); }
 };
 
-/// The word of Trace::channel_bits for one step.
-std::uint16_t channel_bits(Sensors const&, Effectors const&);
+/// Writes the words of one step, Trace::channel_bits, from the values of all channels, sensors first.
+void put_channel_bits(Channels const&, std::span<float const> values, std::span<std::uint16_t> words);
 
-/// One step as an observer sees it; `world` is after the action, `next` after the move.
-struct StepView {
-    int step;
-    Pose const& pose;
-    Sensors const& sensors;
-    Effectors const& effectors;
-    WorldState const& world;
-    RobotState const& next;
-};
+/// What a controller's outputs do: an effector that is binary gets 1 for an output above 0.5, else 0; a continuous one
+/// the output itself.
+void round_binary_effectors(Channels const&, std::span<float> effectors);
 
-/// One controller in one world, one step after the other: the definition of an evaluation that every faster path must
-/// equal to the bit. Allocates nothing inside the loop.
-/// `observe` is called after each step. Returns the world's final state.
-WorldState run_episode(Arena const&, Network const&, EpisodeConfig const&,
-                       std::function<void(StepView const&)> const& observe);
-
-/// The same, recorded.
-Trace record_episode(Arena const&, Network const&, EpisodeConfig const&);
+/// One controller in one life, one step after the other: sense, tick, act. The definition of an evaluation that every
+/// faster path must equal to the bit. Precondition: the network serves the world's channels.
+Trace record_episode(World const&, Network const&, EpisodeConfig const&);
 
 }   // namespace lore

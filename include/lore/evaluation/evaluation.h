@@ -5,6 +5,7 @@
 #include <lore/knowledge/shaping.h>
 #include <lore/network/genome.h>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +16,7 @@ namespace lore {
 ///
 /// It travels from the evaluating rank to rank 0 (archive/messages.h).
 struct Evaluation {
-    int balls = 0;                       ///< delivered into the basket
+    double reward = 0;                   ///< the sum of the rewards [the world's reward_unit]
     double shaping = no_feature_value;   ///< RS; -1 without a knowledge base, and where the pool decides (rule share)
     std::vector<std::uint32_t> shown;    ///< rule share: the features shown, each once, in increasing order
     Descriptors descriptors;
@@ -24,7 +25,7 @@ struct Evaluation {
 
 /// What a rank needs to evaluate: immutable, equal on all ranks.
 struct EvaluationContext {
-    Arena arena;
+    std::shared_ptr<World const> world;
     EpisodeConfig episode;
     std::optional<Shaper> shaper;   ///< of the treatment's knowledge base, if it has one
 };

@@ -19,9 +19,10 @@ struct FoundingConfig {
     bool mutate = true;   ///< One mutation each.
 };
 
-/// NSGA-II's settings. Objectives, in this order: balls, then BD and RS where they are used; in a period whose distance
-/// is the shaping value (ShapingUse::distance), balls and RS.
+/// NSGA-II's settings. Objectives, in this order: reward, then BD and RS where they are used; in a period whose
+/// distance is the shaping value (ShapingUse::distance), reward and RS.
 struct EvolutionConfig {
+    Interface interface;      ///< of the world's channels
     int population = 200;     ///< survivors of a generation, and children of one. Paper: 200.
     int founders = 400;       ///< random individuals of generation 0, at least `population`
     int generations = 4000;   ///< Paper: 4000.
@@ -42,7 +43,9 @@ struct EvolutionConfig {
 /// Where evolution stands: all that a checkpoint must keep.
 struct EvolutionState {
     Population population;
-    Signature signature;   ///< over every generation's survivors, in order: id, balls, objectives
+    /// Over every generation's survivors, in order: id, reward, objectives. A reward that is a whole number counts as
+    /// that integer of 64 bits (a negative one as its two's complement), any other by the bits of the double.
+    Signature signature;
 };
 
 struct GenerationReport {
@@ -63,7 +66,7 @@ using GenerationObserver = std::function<bool(GenerationReport const&)>;
 /// evaluator and measurer decide where the work is done. Passes on what they throw; the state is lost then.
 ///
 /// `origin` are the genomes that founders come from, as config.founding says; none: all founders are random.
-/// Precondition: they are valid and within config.limits.
+/// Precondition: they are valid, of config.interface and within config.limits.
 EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, DistanceMeasurer&, EvolutionState state,
                       GenerationObserver const&, std::span<Genome const> origin = {});
 /// The same with distances measured in this process.
@@ -74,7 +77,7 @@ EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, Ev
 /// stream (seed, founder_mutation, 0, i); the others are random: founder(), from the stream (seed, founder, 0, i).
 std::vector<Genome> founder_genomes(EvolutionConfig const&, std::uint64_t seed, std::span<Genome const> origin);
 
-/// Most balls in the population; ties: the earliest born, then the lowest slot. The population must not be empty.
+/// Most reward in the population; ties: the earliest born, then the lowest slot. The population must not be empty.
 Individual const& best_of_run(Population const&);
 
 }   // namespace lore

@@ -23,13 +23,13 @@ struct Birth {
     IndividualId id;
     std::shared_ptr<Birth const> parent;   ///< null for founders
     Genome genome;
-    int balls = 0;
+    double reward = 0;                   ///< Evaluation::reward
     double shaping = no_feature_value;   ///< RS; by rule share, in the joint ranking of the generation it was born in
     double diversity = 0;                ///< BD in the joint ranking of the generation it was born in
     ~Birth();                            ///< releases a long lineage without recursion
 };
 
-/// The first `count` values (1 to 3, finite) are objectives, all maximized, in the order of the treatment (balls,
+/// The first `count` values (1 to 3, finite) are objectives, all maximized, in the order of the treatment (reward,
 /// diversity, shaping); the others are 0.
 struct Objectives {
     std::array<double, 3> value{};

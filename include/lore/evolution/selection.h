@@ -6,7 +6,8 @@
 
 namespace lore {
 
-/// How sorts and cuts order equal individuals (docs/design/model.md). Ties are frequent, since balls are discrete.
+/// How sorts and cuts order equal individuals (docs/design/model.md). Ties are frequent, since many rewards are
+/// discrete.
 enum class TieRule : std::uint8_t {
     random,
     older,

@@ -10,8 +10,8 @@ namespace lore {
 /// A new figure is a line here, one in summarize, and one in the columns of progress.csv.
 struct GenerationSummary {
     int generation = 0;
-    int best_balls = 0;
-    double mean_balls = 0;
+    double best_reward = 0;   ///< [the world's reward_unit]
+    double mean_reward = 0;
     DistanceKind distance = DistanceKind::adhoc;
     bool shaping_serves = false;   ///< RS stood in the place of BD
     double mean_diversity = 0;     ///< BD

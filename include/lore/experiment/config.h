@@ -3,6 +3,7 @@
 #include <lore/archive/container.h>
 #include <lore/evolution/evolution.h>
 #include <lore/knowledge/window.h>
+#include <lore/world/open.h>
 
 #include <cstdint>
 #include <string>
@@ -13,9 +14,11 @@ namespace lore {
 /// One run, completely: a treatment is a value, not a build.
 struct ExperimentConfig {
     std::string name = "source";         ///< of the treatment, for people
+    WorldRequest world;                  ///< [world]; of none: collectball, with the arena and the task below
     std::string arena = "collectball";   ///< built-in arena's name, or a path, relative to the configuration file;
                                          ///< in an override, to the working directory
     std::string task = "source";         ///< one of the arena's tasks
+    int stop_when_still = 0;             ///< of collectball (CollectballWorld) [steps]
     std::string founders_from;   ///< directory of a run, or a founders file; "": random founders. Relative paths
                                  ///< start where those of `arena` do
     EpisodeConfig episode;
@@ -24,6 +27,10 @@ struct ExperimentConfig {
     double squared_threshold = 0;       ///< if not 0, knowledge.match_threshold is its square root
     int checkpoint_generations = 100;   ///< a checkpoint every so many generations
     double checkpoint_minutes = 5;      ///< and every so many minutes
+
+    bool has_world() const {
+        return !world.name.empty() || !world.process.empty();
+    }   ///< another than collectball by its arena
 };
 
 /// Reads jobs/*.toml; `overrides` are "section.key=value". Unknown keys are errors that name the nearest valid one.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace lore {
 
@@ -12,7 +13,7 @@ namespace lore {
 using BuildingObserver = std::function<void(std::int64_t individuals, std::int64_t features)>;
 
 /// The windows of an archived individual are not stored: it is simulated again, which repeats its evaluation exactly.
-/// Both functions throw Error if a repeated evaluation does not deliver the archived number of balls. A thread
+/// Both functions throw Error if a repeated evaluation does not give the archived reward. A thread
 /// simulates a batch while others match the former one, one a processor; the result does not depend on how many. Memory
 /// is bounded by a few batches and the base itself.
 ///
@@ -27,10 +28,11 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual,
                                    Provenance, BuildingObserver const&, std::vector<double> gammas = default_gammas());
 /// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
 /// after it, if that is not 1. Throws Error if the run did not keep them. Gathers evidence of contrast and of returns.
-/// `success_balls`: so many make a success; 0: half of what the best-of-run delivered, rounded up, at least 1.
+/// `success_reward`: so much makes a success; none: half of the best-of-run's, of whole rewards rounded up and at least
+/// 1.
 KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexChoice, Provenance,
                                BuildingObserver const&, std::vector<double> gammas = default_gammas(),
-                               int success_balls = 0);
+                               std::optional<double> success_reward = {});
 
 /// How many individuals the run archived (--archive all).
 std::uint64_t archived_individuals(RunDirectory const&);

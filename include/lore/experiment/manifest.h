@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/archive/world_record.h>
 #include <lore/experiment/version.h>
 
 #include <cstdint>
@@ -14,8 +15,8 @@ std::string_view name(RunStatus);
 
 /// Parts that files play in a run.
 namespace file_role {
-inline constexpr char configuration[] = "configuration", arena[] = "arena", knowledge[] = "knowledge base",
-                      founders[] = "founders", output[] = "output";
+inline constexpr char configuration[] = "configuration", arena[] = "arena", world[] = "world",
+                      knowledge[] = "knowledge base", founders[] = "founders", output[] = "output";
 }   // namespace file_role
 
 /// A file that went into a run or came out of it, and what it was like.
@@ -46,11 +47,12 @@ struct Manifest {
     std::string name;
     std::string task;
     std::uint64_t seed = 1;
-    std::string signature;   ///< as of the last checkpoint or the end
-    int generation = 0;      ///< likewise
-    int generations = 0;     ///< that the run is to reach
-    int best_balls = 0;      ///< of the best-of-run, likewise
-    std::string best;        ///< its id
+    std::string signature;    ///< as of the last checkpoint or the end
+    int generation = 0;       ///< likewise
+    int generations = 0;      ///< that the run is to reach
+    double best_reward = 0;   ///< of the best-of-run, likewise
+    WorldRecord world;        ///< of a run by an earlier version: collectball's, without more than its names
+    std::string best;         ///< its id
     BuildInformation build;
     std::vector<FileRecord> inputs, outputs;
     std::vector<RunSession> sessions;

@@ -13,8 +13,9 @@ namespace lore {
 struct ProgressColumn;
 
 /// The first line of progress.csv, and the row of a generation; evaluations and steps are those of the whole run up to
-/// it. Both without the end of the line.
-std::string progress_header();
+/// it. Both without the end of the line. Of a reward in balls the columns are best_balls and mean_balls, of any other
+/// best_reward and mean_reward.
+std::string progress_header(std::string_view reward_unit);
 std::string text(GenerationSummary const&);
 
 /// All rows, by generation from 0. Columns are found by name, and a file from before a column was added is read
@@ -30,7 +31,7 @@ class ProgressWriter {
 public:
     /// A new file with its header, or an old one cut back to `bytes` (not 0), which keeps the columns it has.
     /// Throws Error, also if the old one is shorter, or its header is not one of progress.csv.
-    ProgressWriter(std::string path, std::uint64_t bytes);
+    ProgressWriter(std::string path, std::uint64_t bytes, std::string_view reward_unit);
     ~ProgressWriter();
     ProgressWriter(ProgressWriter const&) = delete;
     ProgressWriter& operator=(ProgressWriter const&) = delete;

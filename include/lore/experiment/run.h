@@ -31,6 +31,7 @@ struct RunOutcome {
     std::string signature;
     int generation = 0;
     std::shared_ptr<Birth const> best;   ///< of the population reached
+    std::string reward_unit;
 };
 
 /// A whole run on the ranks of a session, called on rank 0: evolves, keeps the books in options.directory, stops at a

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <lore/archive/lineage_file.h>
-#include <lore/experiment/config.h>
+#include <lore/experiment/run_world.h>
 
 #include <string>
 
@@ -25,7 +25,7 @@ inline constexpr char lock[] = "lock";
 struct RunDirectory {
     std::string path;
     ExperimentConfig config;
-    Arena arena;
+    RunWorld world;
     LineageArchive lineage;
     std::string file(std::string_view name) const;
     /// "best", or "GENERATION.SLOT". Throws UsageError.

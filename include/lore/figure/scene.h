@@ -1,28 +1,19 @@
 #pragma once
 
-#include <lore/arena/shapes.h>
-
-#include <vector>
+#include <string>
 
 namespace lore {
 
-struct Arena;
+class World;
 
-/// What a picture shows of an arena and its task; lengths in [u], y grows downwards.
+/// What a picture shows of a world behind the paths; lengths in [u], y grows downwards.
 struct Scene {
-    float width = 0, height = 0;
-    std::vector<Rect> walls;   ///< without the door
-    std::vector<Rect> doors;   ///< parts of one door; empty without one
-    std::vector<Point> ball_positions;
-    bool balls_at_start = true;   ///< false: each comes with a press of the switch
-    Point basket_center;
-    float basket_radius = 0;
-    std::vector<Point> basket_lights;
-    Point switch_position;
-    float robot_radius = 0;
+    float width = 1, height = 1;
+    std::string svg;   ///< one SVG element in units of positions, as World::scene_svg gives it; "": nothing
     friend bool operator==(Scene const&, Scene const&) = default;
 };
 
-Scene scene_of(Arena const&);
+/// A scene_svg that is no SVG element is left out: a picture without it is better than none.
+Scene scene_of(World const&);
 
 }   // namespace lore

@@ -48,6 +48,8 @@ public:
     /// What is drawn until end_group is shown only within the rectangle.
     void begin_clip(SvgPoint corner, double width, double height);
     void end_group();
+    /// A piece of SVG in units of its own, `scale` pixels each, from `corner` on. Precondition: it is well-formed.
+    void embed(SvgPoint corner, double scale, std::string_view element);
 
     std::string finish() &&;
 

@@ -7,8 +7,8 @@ namespace lore {
 /// What an individual showed, and what it earned.
 struct Exhibit {
     std::vector<Window> windows;
-    double balls = 0;
-    std::span<int const> deliveries = {};   ///< as Trace::deliveries; of discounted returns
+    double reward = 0;
+    std::span<Reward const> rewards = {};   ///< as Trace::rewards; of discounted returns
     std::uint32_t generation = 0;           ///< of its birth; of contrast
 };
 
@@ -37,7 +37,7 @@ public:
 private:
     int add_feature();
     void begin_individual(Exhibit const&);
-    void show(int feature, std::size_t window, double balls);
+    void show(int feature, std::size_t window, double reward);
     std::vector<Match> match_all(std::span<Window const* const>, int threads);
 
     KnowledgeConfig config_;

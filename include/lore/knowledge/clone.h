@@ -3,7 +3,6 @@
 #include <lore/knowledge/knowledge_base.h>
 #include <lore/network/genome.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -19,8 +18,9 @@ struct CloneConfig {
 };
 /// Steps of the windows drawn for one founder: they lie in memory together [steps].
 inline constexpr int most_cloned_steps = 1'000'000;
-/// 36 + 15 a hidden neuron are the connections of a clone.
-inline constexpr int most_cloned_hidden = (most_edges - sensor_count * effector_count) / channel_count;
+/// Hidden neurons that clones may have: one from each sensor to each effector, and one from and to each of them for
+/// every hidden neuron, are the connections of a clone.
+int most_cloned_hidden(Channels const&);   ///< at most most_hidden
 
 /// How well one effector is imitated.
 struct EffectorFit {
@@ -30,8 +30,8 @@ struct EffectorFit {
 
 struct Clones {
     std::vector<Genome> genomes;
-    std::array<EffectorFit, effector_count> fit;        ///< of the genomes' own weights, mean over the founders
-    std::array<EffectorFit, effector_count> constant;   ///< of the best constant output (each founder's own mean)
+    std::vector<EffectorFit> fit;        ///< per effector, of the genomes' own weights, mean over the founders
+    std::vector<EffectorFit> constant;   ///< of the best constant output (each founder's own mean)
     bool all_alike = false;   ///< no value stands out, so that every feature was drawn with the same probability
 };
 

@@ -22,7 +22,7 @@ KnowledgeBase keep_valued(KnowledgeBase const& base, double least_value);
 /// The features that at least so many individuals have shown: their values are means of as many rewards.
 KnowledgeBase keep_shown(KnowledgeBase const& base, int least_count);
 /// The features of `base` that match, by its threshold, some feature in every one of `others` (paper, Conclusion:
-/// future work). Throws UsageError if their window lengths differ.
+/// future work). Throws UsageError if their window lengths or channels differ.
 KnowledgeBase keep_consensus(KnowledgeBase const& base, std::span<KnowledgeBase const> others);
 
 }   // namespace lore

@@ -58,11 +58,11 @@ public:
 
 /// The windows of features, one after the other; the only copy while a knowledge base is being built.
 struct FeatureWindows {
-    std::vector<std::uint16_t> bits;   ///< [feature][step], without the bits that are no channels of a window
-    std::vector<float> values;         ///< [feature][step][continuous_count]
+    std::vector<std::uint16_t> bits;   ///< [feature][step][word], the bits of binary channels alone
+    std::vector<float> values;         ///< [feature][step][continuous channel]
 
-    void add(Window const&);
-    Window window(int feature, int window_length) const;   ///< valid until the next add
+    void add(Channels const&, Window const&);
+    Window window(int feature, KnowledgeConfig const&) const;   ///< valid until the next add
 };
 
 /// Finds the nearest feature of a growing set of windows, which it copies. Reading it (by searches, also from several

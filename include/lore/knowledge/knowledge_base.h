@@ -18,18 +18,19 @@ struct Provenance {
     std::string index;                     ///< "exact" or "flann": the index that found the matches while building
     std::vector<std::string> sources;      ///< runs or knowledge bases it was made from
     std::vector<std::string> derivation;   ///< what was done to it since it was built, in order
-    std::string task;                      ///< the arena's and task's name
+    std::string task;                      ///< the world's and task's name
+    std::string reward_unit = "balls";     ///< of that world
     std::string value;                     ///< the rule that gave the values (knowledge/value.h); empty: mean
     std::uint64_t individuals = 0;         ///< whose windows were read
     std::uint64_t windows = 0;
-    int best_balls = 0;   ///< of the best-of-run whose lineage it is
+    double best_reward = 0;   ///< of the best-of-run whose lineage it is
     friend bool operator==(Provenance const&, Provenance const&) = default;
 };
 
 /// The arrays of a knowledge base while it is being made.
 struct KnowledgeArrays {
-    std::vector<std::uint16_t> bits;     ///< [feature][step]
-    std::vector<float> windows;          ///< [feature][step][continuous_count]
+    std::vector<std::uint16_t> bits;     ///< [feature][step][word], the bits of binary channels alone
+    std::vector<float> windows;          ///< [feature][step][continuous channel]
     std::vector<double> values;          ///< [feature]
     std::vector<double> reward_sums;     ///< [feature]
     std::vector<std::uint32_t> counts;   ///< [feature]
@@ -50,7 +51,9 @@ public:
     int size() const { return static_cast<int>(parts_.values.size()); }
 
     Window window(int feature) const;   ///< valid as long as the knowledge base
-    double value(int feature) const { return parts_.values[static_cast<std::size_t>(feature)]; }   ///< r_i [balls]
+    double value(int feature) const {
+        return parts_.values[static_cast<std::size_t>(feature)];
+    }   ///< r_i [reward unit]
     double reward_sum(int feature) const { return parts_.reward_sums[static_cast<std::size_t>(feature)]; }
     std::uint32_t count(int feature) const {
         return parts_.counts[static_cast<std::size_t>(feature)];
@@ -62,8 +65,8 @@ public:
     struct Parts {
         KnowledgeConfig config;
         Provenance provenance;
-        std::span<std::uint16_t const> bits;     ///< [feature][step]
-        std::span<float const> windows;          ///< [feature][step][continuous_count]
+        std::span<std::uint16_t const> bits;     ///< [feature][step][word], the bits of binary channels alone
+        std::span<float const> windows;          ///< [feature][step][continuous channel]
         std::span<double const> values;          ///< [feature]
         std::span<double const> reward_sums;     ///< [feature]
         std::span<std::uint32_t const> counts;   ///< [feature]

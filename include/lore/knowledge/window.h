@@ -1,9 +1,7 @@
 #pragma once
 
-#include <lore/core/channels.h>
 #include <lore/episode/episode.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,31 +19,33 @@ struct KnowledgeConfig {
 
     /// What squared distances are compared with, rounded once to float; every index uses this number.
     float squared_threshold() const { return match_threshold * match_threshold; }
+
+    Channels channels = {};   ///< of the windows
     friend bool operator==(KnowledgeConfig const&, KnowledgeConfig const&) = default;
 };
 
-/// Bits of a step's word that are binary channels; the others belong to the Hamming descriptor.
-inline constexpr std::uint16_t window_bits_mask = (1u << binary_count) - 1;
-
 /// window_length consecutive steps of one evaluation, the unit of knowledge (paper, "Behavioral features").
 ///
-/// A view, valid as long as its Trace. Distance between two windows: Frobenius over the window_length x channel_count
+/// A view, valid as long as its Trace. Distance between two windows: Frobenius over the window_length x channels
 /// values; the binary channels contribute the number of differing bits, the continuous ones the squares of their
 /// differences.
 struct Window {
-    std::span<std::uint16_t const> bits;   ///< per step, as Trace::channel_bits; only the bits of binary channels count
-    std::span<float const> values;         ///< [step][continuous_count], as Trace::values
+    std::span<std::uint16_t const> bits;   ///< [step][word], as Trace::channel_bits; only bits of binary channels count
+    std::span<float const> values;         ///< [step][continuous channel], as Trace::values
 };
 
+/// The bits of binary channels in word number `word` of a step; the others belong to the Hamming descriptor.
+std::uint16_t binary_mask(Channels const&, int word);
+
 /// All channels of one step, in their order.
-std::array<float, channel_count> channels_at(Window const&, std::size_t step);
+std::vector<float> channels_at(Channels const&, Window const&, std::size_t step);
 
 /// The non-overlapping windows of a trace in order; steps that do not fill a last window are left out.
 std::vector<Window> windows_of(Trace const&, int window_length);
 
-/// Squared distance, the plain definition. Precondition: windows of equal length.
+/// Squared distance, the plain definition. Precondition: windows of these channels, of equal length.
 /// The sum's order is part of it: the squares go to 16 partial sums by their index modulo 16, which are then added
 /// pairwise (8 + 8, 4 + 4, 2 + 2, 1 + 1), and the differing bits last.
-float squared_distance(Window const&, Window const&);
+float squared_distance(Channels const&, Window const&, Window const&);
 
 }   // namespace lore

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <lore/core/channels.h>
 #include <lore/core/random.h>
+#include <lore/world/channels.h>
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,18 @@ namespace lore {
 
 /// Neurons are numbered: inputs (the sensors), then outputs (the effectors), then hidden neurons.
 using NeuronIndex = std::uint8_t;
-inline constexpr int first_output = sensor_count;
-inline constexpr int first_hidden = channel_count;
+
+/// The neurons that the world prescribes: an input for each sensor, an output for each effector.
+struct Interface {
+    std::uint8_t inputs = 0, outputs = 0;
+    Interface() = default;
+    constexpr Interface(int of_inputs, int of_outputs)
+        : inputs(static_cast<std::uint8_t>(of_inputs)), outputs(static_cast<std::uint8_t>(of_outputs)) {}
+    explicit Interface(Channels const& channels) : Interface(channels.sensors(), channels.effectors()) {}
+    constexpr int first_output() const { return inputs; }
+    constexpr int first_hidden() const { return inputs + outputs; }
+    friend bool operator==(Interface, Interface) = default;
+};
 
 /// Ranges of the paper's appendix; their upper ends are enforced as limits, an addition beyond them is not done.
 struct NetworkLimits {
@@ -22,6 +32,7 @@ struct NetworkLimits {
 /// What a Genome can hold whatever the configuration; files and messages are checked against these.
 inline constexpr int most_hidden = 64;
 inline constexpr int most_edges = 1024;
+inline constexpr int most_neurons = most_channels + most_hidden;
 
 /// Weights and biases are stored as genes in [0, 1] and mean gene * 10 - 5.
 inline constexpr float gene_span = 10.0f;
@@ -40,10 +51,12 @@ struct Edge {
 /// Invariants (is_valid): sources are inputs or hidden, targets are outputs or hidden, no two edges share both ends,
 /// genes in [0, 1]. The order of the edges is part of the genome: mutation walks them in it.
 struct Genome {
-    std::vector<Edge> edges;
-    std::vector<float> biases;   ///< genes; the outputs first, then the hidden neurons
+    Interface interface;
+    std::vector<Edge> edges = {};
+    std::vector<float> biases = {};   ///< genes; the outputs first, then the hidden neurons
 
-    int hidden_count() const { return static_cast<int>(biases.size()) - effector_count; }
+    int hidden_count() const { return static_cast<int>(biases.size()) - interface.outputs; }
+    int first_hidden() const { return interface.first_hidden(); }
     friend bool operator==(Genome const&, Genome const&) = default;
 };
 
@@ -51,6 +64,6 @@ struct Genome {
 std::string why_invalid(Genome const&);
 
 /// A random individual of generation 0: every input connected to every output, all genes uniform.
-Genome founder(Stream rng);
+Genome founder(Interface, Stream rng);
 
 }   // namespace lore

@@ -14,6 +14,7 @@ namespace lore {
 /// live in one array: the inputs, then the hidden neurons. A neuron's sum runs over its sources in increasing
 /// index, starting from zero: this order is part of the definition, because float addition is not associative.
 struct Network {
+    int inputs = 0, outputs = 0;   ///< Interface
     int hidden_count = 0;
     std::vector<std::uint16_t>
         first;   ///< per target (outputs, then hidden), first entry in source/weight; size targets + 1
@@ -21,7 +22,7 @@ struct Network {
     std::vector<float> weight;          ///< decoded, [-5, 5]
     std::vector<float> bias;            ///< per target: decoded bias times 5, as the activation uses it
 
-    int target_count() const { return effector_count + hidden_count; }
+    int target_count() const { return outputs + hidden_count; }
     int edge_count() const { return static_cast<int>(source.size()); }
 };
 
@@ -37,7 +38,7 @@ struct NetworkState {
 
 /// One synchronous tick: y = 1 / (1 + exp(5 b - sum w x)); every neuron reads the present inputs and the hidden
 /// neurons' outputs of the previous tick, so an input-output edge has no delay and each hidden neuron adds one tick.
-void tick(Network const&, std::span<float const, sensor_count> inputs, NetworkState&,
-          std::span<float, effector_count> outputs);
+/// Precondition: as many inputs and outputs as the network has.
+void tick(Network const&, std::span<float const> inputs, NetworkState&, std::span<float> outputs);
 
 }   // namespace lore

@@ -11,13 +11,14 @@ namespace lore {
 /// A point of a mean curve: the best-of-run of the runs that have reached the generation.
 struct MeanPoint {
     int generation = 0;
-    double mean = 0;   ///< [balls]
+    double mean = 0;   ///< [reward unit]
     int runs = 0;
     friend bool operator==(MeanPoint const&, MeanPoint const&) = default;
 };
 
-/// At most 201 points from generation 0 to the last that any run has reached. `runs`: balls of the best by generation.
-std::vector<MeanPoint> mean_curve(std::vector<std::vector<int>> const& runs);
+/// At most 201 points from generation 0 to the last that any run has reached. `runs`: reward of the best by
+/// generation.
+std::vector<MeanPoint> mean_curve(std::vector<std::vector<double>> const& runs);
 
 /// How far the runs of a treatment have come.
 struct TreatmentFacts {
@@ -25,8 +26,9 @@ struct TreatmentFacts {
     int planned = 0;   ///< runs
     int started = 0;   ///< of them, those with a generation
     int done = 0, running = 0, failed = 0;
-    double mean_balls = 0;   ///< of the best so far of those started
-    int best_balls = 0;      ///< of all of them
+    double mean_reward = 0;    ///< of the best so far of those started
+    double best_reward = 0;    ///< of all of them
+    std::string reward_unit;   ///< "" as long as it is not known
     std::vector<MeanPoint> curve;
 };
 
@@ -36,11 +38,12 @@ struct FailureFacts {
     std::vector<std::string> tail;   ///< its last lines, as the failure was recorded; may be empty
 };
 
-/// The finished run of a task that collects most, the first among equals in the report's order.
+/// The finished run of a task with most reward, the first among equals in the report's order.
 struct Champion {
     std::string run;     ///< "kb1/007"
     std::string label;   ///< of its treatment
-    int balls = 0;
+    double reward = 0;
+    std::string reward_unit;
     std::string signature;   ///< of that run
     std::string problem;     ///< why it cannot be replayed; empty if it can
 };

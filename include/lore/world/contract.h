@@ -47,7 +47,11 @@ struct ContractReport {
 ContractReport check_contract(World const&, std::function<std::unique_ptr<World>()> const& reopen,
                               ContractConfig const&);
 
-/// Steps and lives a second of processor time, by batches of `lives`, measured for about `seconds` of it.
-double measure_speed(World const&, int lives, double seconds);
+/// What speed is measured by: the processor time of this program, to which other work on the machine does not count; or
+/// wall time, for a world that works elsewhere.
+enum class Timekeeper { processor, wall };
+
+/// Steps and lives a second, by batches of `lives`, measured for about `seconds`.
+double measure_speed(World const&, int lives, double seconds, Timekeeper = Timekeeper::processor);
 
 }   // namespace lore

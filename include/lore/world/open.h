@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/world/process.h>
 #include <lore/world/world.h>
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lore {
 
@@ -16,12 +18,14 @@ struct WorldRequest {
     /// library to look for: "pendulum" is pendulum.so or libpendulum.so.
     std::string name;
     std::string settings;   ///< [world.settings] as lore/world.h has it: TomlTable::lines
-    std::string
-        folder;   ///< where paths begin and the search too: that of the configuration; "": the working directory
+    /// Where paths begin and the search too: that of the configuration; "": the working directory.
+    std::string folder;
+    std::vector<std::string> process{};          ///< the command of a process (WorldProcess); the name is "" then
+    double patience = WorldProcess{}.patience;   ///< with it [s]
 };
 
-/// The table [world] of a configuration file, `library` and `settings`; an empty name where it has none. Looks at
-/// nothing else of the file. Throws UsageError.
+/// The table [world] of a configuration file: `library`, or `process` and `patience`; `settings`. No name and no
+/// process where it has none. Looks at nothing else of the file. Throws UsageError.
 WorldRequest read_world_request(std::string const& config_file);
 
 /// A world of this program. `open` throws UsageError for an unknown task and for settings that it does not know.
@@ -32,11 +36,18 @@ struct BuiltinWorld {
 
 /// Where a world came from. Together with its facts it says whether files of one run fit another.
 struct WorldOrigin {
-    std::string file;             ///< as it was found; "" for a built-in world
-    std::uint64_t checksum = 0;   ///< of the file
-    std::uint64_t bytes = 0;
+    std::string file;             ///< the library, as it was found; "" for other worlds
+    std::uint64_t checksum = 0;   ///< of the library; of a process, of those words of its command that are files
+    std::uint64_t bytes = 0;      ///< of the same
     std::string settings;
+    std::vector<std::string> command{};   ///< of a process
 };
+/// What messages call it: "./pendulum.so", "python3 cartpole.py", "" for a built-in world.
+std::string text(WorldOrigin const&);
+
+/// The words of a process's command that are files, as they are found from `folder`: "cartpole.py", not what is looked
+/// for along PATH. What these files load is not among them.
+std::vector<std::string> files_of(std::vector<std::string> const& command, std::string const& folder);
 
 struct OpenedWorld {
     WorldOrigin origin;
@@ -48,7 +59,8 @@ struct OpenedWorld {
 /// Throws UsageError with the places where it is not found.
 std::string find_library(std::string const& name, std::string const& folder);
 
-/// Throws UsageError: no such built-in world or file, refused settings; Error: as load_world.
+/// Throws UsageError: no such built-in world or file, a command that cannot be started, refused settings; Error: as
+/// load_world and start_world.
 OpenedWorld open_world(WorldRequest const&, std::span<BuiltinWorld const>);
 
 }   // namespace lore

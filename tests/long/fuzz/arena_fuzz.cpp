@@ -2,7 +2,7 @@
 
 #include "fuzz_input.h"
 
-#include <lore/episode/replay.h>
+#include <lore/collectball/replay.h>
 
 using namespace lore;
 

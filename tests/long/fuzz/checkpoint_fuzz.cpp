@@ -15,7 +15,7 @@ constexpr std::size_t longest_path = 2000;   ///< edit distances of longer ones 
 
 void read_input(std::span<std::byte const> input) {
     fuzz::accepts([&] {
-        Checkpoint const checkpoint = unpack_checkpoint(input, "fuzz");
+        Checkpoint const checkpoint = unpack_checkpoint(fuzz::as_payload(input), "fuzz");
         std::vector<Descriptors const*> pool;
         for (Individual const& member : checkpoint.state.population.members) {
             if (member.descriptors->path.size() > longest_path) return;
@@ -25,7 +25,7 @@ void read_input(std::span<std::byte const> input) {
         DistanceMatrix matrix{size};
         for (int kind = 0; kind < distance_kinds; ++kind)
             measure_rows(static_cast<DistanceKind>(kind), pool, 0, size, matrix);
-        fuzz::demand(unpack_checkpoint(pack_checkpoint(checkpoint), "fuzz").state.population.members.size() ==
+        fuzz::demand(unpack_checkpoint({pack_checkpoint(checkpoint)}, "fuzz").state.population.members.size() ==
                      pool.size());
     });
 }

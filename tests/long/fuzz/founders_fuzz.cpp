@@ -8,6 +8,7 @@ using namespace lore;
 
 void read_input(std::span<std::byte const> input) {
     fuzz::accepts([&] {
-        for (Genome const& genome : unpack_founders(input, "fuzz").genomes) fuzz::demand(why_invalid(genome).empty());
+        for (Genome const& genome : unpack_founders(fuzz::as_payload(input), "fuzz").genomes)
+            fuzz::demand(why_invalid(genome).empty());
     });
 }

@@ -23,6 +23,12 @@ inline std::string_view as_text(std::span<std::byte const> bytes) {
     return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
 }
 
+/// The payload of a container: the first byte of the input says of which format version.
+inline Payload as_payload(std::span<std::byte const> input) {
+    if (input.empty()) return {};
+    return {Bytes(input.begin() + 1, input.end()), 1 + std::to_integer<std::uint32_t>(input[0]) % container_version};
+}
+
 /// A file in memory, for readers that want a path.
 class MemoryFile {
 public:

@@ -7,7 +7,5 @@
 using namespace lore;
 
 void read_input(std::span<std::byte const> input) {
-    Bytes const file = seal(FileKind::genome, input, Packing::plain);
-    fuzz::MemoryFile const stored{file};
-    fuzz::accepts([&] { fuzz::demand(why_invalid(read_genome(stored.path()).genome).empty()); });
+    fuzz::accepts([&] { fuzz::demand(why_invalid(unpack_genome(fuzz::as_payload(input), "fuzz").genome).empty()); });
 }

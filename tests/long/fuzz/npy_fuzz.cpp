@@ -4,6 +4,7 @@
 
 #include <lore/archive/knowledge_export.h>
 #include <lore/archive/npy_file.h>
+#include <lore/collectball/collectball.h>
 
 using namespace lore;
 
@@ -16,7 +17,9 @@ void read_input(std::span<std::byte const> input) {
         fuzz::demand(count == array.values.size());
     });
     fuzz::accepts([&] {
-        Trace const windows = read_windows(stored.path(), 2);
-        fuzz::demand(windows.values.size() == windows.channel_bits.size() * continuous_count);
+        KnowledgeConfig const config{2, 1.83f, collectball_channels()};
+        Trace const windows = read_windows(stored.path(), config);
+        fuzz::demand(windows.values.size() ==
+                     windows.channel_bits.size() * static_cast<std::size_t>(config.channels.continuous_count()));
     });
 }

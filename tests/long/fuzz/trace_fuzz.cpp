@@ -2,7 +2,7 @@
 
 #include "fuzz_input.h"
 
-#include <lore/archive/trace_file.h>
+#include <lore/collectball/trace_file.h>
 
 using namespace lore;
 

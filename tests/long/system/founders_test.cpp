@@ -4,6 +4,7 @@
 
 #include <lore/archive/container.h>
 #include <lore/archive/knowledge_file.h>
+#include <lore/collectball/collectball.h>
 
 #include <gmock/gmock.h>
 
@@ -121,25 +122,27 @@ TEST_F(Founders, of_a_resumed_run_are_those_it_was_started_with) {
 }
 
 TEST_F(Founders, of_another_robot_are_refused_and_nothing_is_written) {
-    Bytes payload = read_container(clones, FileKind::founders);
+    Bytes payload = read_container(clones, FileKind::founders).bytes;
     std::string_view const ours = "range_right";
     auto const channel = std::search(payload.begin(), payload.end(), ours.begin(), ours.end(),
                                      [](std::byte stored, char wanted) { return stored == std::byte(wanted); });
     ASSERT_NE(channel, payload.end());
-    *channel = std::byte{'R'};
+    *channel = std::byte{'b'};
     std::string const foreign = scratch.file("foreign.lore"), never = scratch.file("never");
     write_container(foreign, FileKind::founders, payload);
     for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)})
-        expect_refusal(launcher + evolve(config, never, {"--founders", foreign}), 2, "does not fit the robot");
+        expect_refusal(launcher + evolve(config, never, {"--founders", foreign}), 2,
+                       "is continuous 'bange_right', not continuous 'range_right'");
     EXPECT_FALSE(exists(never));
-    expect_refusal({program("lore-kb"), "verify", foreign}, 2, "does not fit the robot");
+    expect_done({program("lore-kb"), "verify", foreign});
 }
 
 TEST_F(Founders, of_a_base_with_windows_too_long_to_clone_from_are_refused_and_nothing_is_written) {
     KnowledgeConfig config_of_base;
     config_of_base.window_length = longest_window;
+    config_of_base.channels = collectball_channels();
     KnowledgeArrays arrays{std::vector<std::uint16_t>(longest_window),
-                           std::vector<float>(std::size_t{longest_window} * continuous_count),
+                           std::vector<float>(std::size_t{longest_window} * 6),
                            {2.0},
                            {4.0},
                            {2}};

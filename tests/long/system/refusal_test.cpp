@@ -3,6 +3,7 @@
 #include "system/evolve_command.h"
 
 #include <lore/archive/knowledge_file.h>
+#include <lore/collectball/collectball.h>
 
 #include <gmock/gmock.h>
 
@@ -34,9 +35,10 @@ void write_small_base(std::string const& path, int window_length, float threshol
     KnowledgeConfig config;
     config.window_length = window_length;
     config.match_threshold = threshold;
+    config.channels = collectball_channels();
     KnowledgeArrays arrays;
     arrays.bits.assign(static_cast<std::size_t>(window_length), 0);
-    arrays.windows.assign(static_cast<std::size_t>(window_length) * continuous_count, 0.5f);
+    arrays.windows.assign(static_cast<std::size_t>(window_length) * 6, 0.5f);
     arrays.values = {2.0};
     arrays.reward_sums = {4.0};
     arrays.counts = {2};

@@ -11,6 +11,8 @@
 #include <gmock/gmock.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -23,28 +25,29 @@ struct Remembered {
     IndividualId id;
     std::optional<IndividualId> parent;
     Genome genome;
-    int balls;
+    double reward;
     friend bool operator==(Remembered const&, Remembered const&) = default;
 };
 
 std::vector<Remembered> read(std::string const& path, int through) {
     std::vector<Remembered> all;
     for_each_individual(path, through, [&](ArchivedIndividual const& one) {
-        all.push_back({one.id, one.parent, one.genome, one.balls});
+        all.push_back({one.id, one.parent, one.genome, one.reward});
     });
     return all;
 }
 
 /// A run of `generations` that archives everybody; returns what it saw.
-std::vector<Remembered> archived_run(std::string const& path, int generations) {
-    AllIndividualsWriter writer{path};
+std::vector<Remembered> archived_run(std::string const& path, int generations,
+                                     WorldRecord const& world = test::robots_world()) {
+    AllIndividualsWriter writer{path, world};
     std::vector<Remembered> seen;
     PretendedEvaluator evaluator;
-    evolve(small_evolution(generations), 1, evaluator, {}, [&](GenerationReport const& report) {
+    evolve(small_evolution(generations, world.interface()), 1, evaluator, {}, [&](GenerationReport const& report) {
         for (Individual const& child : report.born) {
             Birth const& birth = *child.birth;
             seen.push_back(
-                {birth.id, birth.parent ? std::optional{birth.parent->id} : std::nullopt, birth.genome, birth.balls});
+                {birth.id, birth.parent ? std::optional{birth.parent->id} : std::nullopt, birth.genome, birth.reward});
         }
         writer.add(report);
         return true;
@@ -66,6 +69,50 @@ TEST(AllIndividuals, are_read_back_in_order_of_birth) {
     EXPECT_EQ(summary.bytes, std::filesystem::file_size(scratch.file("all")));
 }
 
+TEST(AllIndividuals, of_any_world_keep_fractional_rewards_and_the_world) {
+    Scratch const scratch;
+    WorldRecord const world = test::toys_world();
+    auto const seen = archived_run(scratch.file("all"), 10, world);
+    EXPECT_EQ(read(scratch.file("all"), 10), seen);
+    EXPECT_LT(seen.front().reward, 1e9);
+    EXPECT_EQ(seen.front().genome.interface, world.interface());
+    EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [](Remembered const& one) { return one.reward < 0; }));
+    EXPECT_EQ(check_all_individuals(scratch.file("all")).world, world);
+    EXPECT_EQ(world_of_all_individuals(scratch.file("all")), world);
+}
+
+TEST(AllIndividuals, keep_any_finite_reward_and_refuse_others) {
+    Scratch const scratch;
+    for (double const reward : {0.0, 3.0, 0x1p30, 0x1p30 + 1, 0.5, -2.0, 1e300, std::nan("")}) {
+        class Rewards : public PretendedEvaluator {
+        public:
+            double reward = 0;
+            std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
+                                             CompletionListener* listener) override {
+                auto evaluations = PretendedEvaluator::evaluate(genomes, listener);
+                for (Evaluation& evaluation : evaluations) evaluation.reward = reward;
+                return evaluations;
+            }
+        } evaluator;
+        evaluator.reward = std::isnan(reward) ? 0.5 : reward;
+        std::string const path = scratch.file("all");
+        AllIndividualsWriter writer{path, test::robots_world()};
+        evolve(small_evolution(0), 1, evaluator, {}, [&](GenerationReport const& report) {
+            auto born = std::vector<Individual>(report.born.begin(), report.born.end());
+            auto birth = std::make_shared<Birth>(*born[3].birth);
+            birth->reward = reward;
+            born[3].birth = birth;
+            GenerationReport changed = report;
+            changed.born = born;
+            writer.add(changed);
+            return true;
+        });
+        writer.finish();
+        if (std::isnan(reward)) EXPECT_THROW(read(path, 0), Error);
+        else EXPECT_EQ(read(path, 0)[3].reward, reward);
+    }
+}
+
 TEST(AllIndividuals, take_less_than_75_bytes_each) {
     Scratch const scratch;
     auto const seen = archived_run(scratch.file("all"), 400);
@@ -84,7 +131,7 @@ TEST(AllIndividuals, are_the_same_bytes_after_a_run_was_cut_back_to_its_checkpoi
     EvolutionState state;
     AllIndividualsMark mark;
     {
-        AllIndividualsWriter writer{path};
+        AllIndividualsWriter writer{path, test::robots_world()};
         evolve(small_evolution(generations), 1, evaluator, {}, [&](GenerationReport const& report) {
             writer.add(report);
             if (report.generation == 310) {
@@ -141,7 +188,7 @@ TEST(AllIndividuals, notice_a_lost_frame) {
         std::memcpy(&stored, bytes.data() + at + 16, sizeof stored);
         return at + 32 + stored;
     };
-    std::size_t const second = end_of_frame(64), third = end_of_frame(second);
+    std::size_t const second = end_of_frame(container_length(bytes, "all")), third = end_of_frame(second);
     ASSERT_LT(third, bytes.size());
     std::vector<std::byte> lost{bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(second)};
     lost.insert(lost.end(), bytes.begin() + static_cast<std::ptrdiff_t>(third), bytes.end());
@@ -162,7 +209,8 @@ TEST(AllIndividuals, of_a_tiny_frame_that_claims_to_be_huge_take_no_memory) {
     } const frame{0x4d415246, 1, claimed, packed.size()};
     std::uint64_t const sum =
         XXH3_64bits_withSeed(packed.data(), packed.size(), XXH3_64bits_withSeed(&frame, sizeof frame, 0));
-    Bytes file = seal(FileKind::all_individuals, {}, Packing::plain);
+    { AllIndividualsWriter const only_a_head{scratch.file("head"), test::robots_world()}; }
+    Bytes file = read_file(scratch.file("head"));
     auto const append = [&](void const* data, std::size_t size) {
         auto const* const first = static_cast<std::byte const*>(data);
         file.insert(file.end(), first, first + size);

@@ -48,7 +48,7 @@ TEST(Container, gives_back_any_payload) {
     for (std::uint32_t slot = 0; slot < 40; ++slot)
         for (Packing packing : {Packing::compressed, Packing::plain}) {
             Bytes const payload = random_bytes(slot * slot * 7, slot);
-            EXPECT_EQ(unseal(seal(FileKind::genome, payload, packing), FileKind::genome, "x"), payload);
+            EXPECT_EQ(unseal(seal(FileKind::genome, payload, packing), FileKind::genome, "x").bytes, payload);
         }
 }
 
@@ -80,10 +80,19 @@ TEST(Container, detects_a_flip_of_every_bit) {
 
 TEST(Container, refuses_a_newer_version_politely) {
     Bytes file = seal(FileKind::lineage, random_bytes(10, 0));
-    file[8] = std::byte{2};
+    file[8] = std::byte{3};
     reseal(file);
     EXPECT_EQ(refusal(file),
-              "cannot read some.lore (written by a newer Lore: format 2, this one reads 1). Update Lore.");
+              "cannot read some.lore (written by a newer Lore: format 3, this one reads 2). Update Lore.");
+}
+
+TEST(Container, says_the_version_of_its_format) {
+    Bytes file = seal(FileKind::lineage, random_bytes(10, 0));
+    EXPECT_EQ(unseal(file, FileKind::lineage, "x").version, container_version);
+    file[8] = std::byte{1};
+    reseal(file);
+    EXPECT_EQ(unseal(file, FileKind::lineage, "x").version, 1u);
+    EXPECT_EQ(container_length(file, "x"), file.size());
 }
 
 TEST(Container, refuses_another_kind_and_foreign_files) {
@@ -125,7 +134,7 @@ TEST(Container, unpacks_what_compresses_best) {
     Bytes const zeros(std::size_t{20} << 20);
     Bytes const file = seal(FileKind::lineage, zeros);
     EXPECT_LT(file.size(), 2000u);
-    EXPECT_EQ(unseal(file, FileKind::lineage, "zeros"), zeros);
+    EXPECT_EQ(unseal(file, FileKind::lineage, "zeros").bytes, zeros);
 }
 
 TEST(Container, survives_a_damaged_compressed_part_behind_a_right_checksum) {
@@ -136,7 +145,7 @@ TEST(Container, survives_a_damaged_compressed_part_behind_a_right_checksum) {
         reseal(changed);
         refusal(changed);   // an error or other bytes, but of the stated length
         try {
-            EXPECT_EQ(unseal(changed, FileKind::lineage, "x").size(), 400u);
+            EXPECT_EQ(unseal(changed, FileKind::lineage, "x").bytes.size(), 400u);
         } catch (Error const&) {}
     }
 }
@@ -149,7 +158,7 @@ TEST(Container, maps_a_plain_payload_aligned_to_64_bytes_and_copies_a_compressed
         MappedPayload const mapped = map_container(scratch.file("a"), FileKind::knowledge_base);
         EXPECT_TRUE(std::equal(payload.begin(), payload.end(), mapped.bytes.begin(), mapped.bytes.end()));
         if (packing == Packing::plain) { EXPECT_EQ(reinterpret_cast<std::uintptr_t>(mapped.bytes.data()) % 64, 0u); }
-        EXPECT_EQ(read_container(scratch.file("a"), FileKind::knowledge_base), payload);
+        EXPECT_EQ(read_container(scratch.file("a"), FileKind::knowledge_base).bytes, payload);
         EXPECT_EQ(kind_of_file(scratch.file("a")), FileKind::knowledge_base);
     }
 }

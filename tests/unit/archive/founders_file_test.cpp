@@ -1,15 +1,12 @@
 #include <lore/archive/founders_file.h>
 
 #include "archive/random_population.h"
+#include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/core/error.h>
 
 #include <gmock/gmock.h>
-
-#include <algorithm>
-#include <array>
-#include <string_view>
 
 using namespace lore;
 using ::testing::HasSubstr;
@@ -17,7 +14,7 @@ using ::testing::HasSubstr;
 namespace {
 
 FoundersFile sample() {
-    FoundersFile founders{"clones of a knowledge base", R"({"base":"kb.lorekb","seed":1})", {}};
+    FoundersFile founders{"clones of a knowledge base", R"({"base":"kb.lorekb","seed":1})", {}, test::robots_world()};
     for (Individual const& member : evolved(20).population.members) founders.genomes.push_back(member.birth->genome);
     return founders;
 }
@@ -32,32 +29,46 @@ TEST(FoundersFile, gives_back_genomes_and_origin) {
     EXPECT_EQ(back.kind, founders.kind);
     EXPECT_THAT(back.origin, HasSubstr("\"base\": \"kb.lorekb\""));
     EXPECT_EQ(back.genomes, founders.genomes);
+    EXPECT_EQ(back.world, founders.world);
     EXPECT_EQ(kind_of_file(scratch.file("f.lore")), FileKind::founders);
 }
 
-TEST(FoundersFile, of_another_interface_is_refused_as_the_user_s_mistake) {
+TEST(FoundersFile, of_other_channels_is_refused_as_the_user_s_mistake) {
     Scratch const scratch;
-    write_founders(scratch.file("f.lore"), sample());
-    Bytes const payload = read_container(scratch.file("f.lore"), FileKind::founders);
-    for (std::string_view const channel : {"bumper_left", "collect"}) {
-        Bytes other = payload;
-        auto const letter = [](std::byte a, char b) { return a == static_cast<std::byte>(b); };
-        auto const at = std::search(other.begin(), other.end(), channel.begin(), channel.end(), letter);
-        ASSERT_NE(at, other.end());
-        *at = std::byte{'x'};
-        try {
-            unpack_founders(other, "f.lore");
-            ADD_FAILURE() << channel;
-        } catch (UsageError const& error) { EXPECT_THAT(error.what(), HasSubstr("f.lore does not fit the robot")); }
-    }
+    FoundersFile const founders = sample();
+    write_founders(scratch.file("f.lore"), founders);
+    EXPECT_EQ(read_founders(scratch.file("f.lore"), founders.world.channels).genomes, founders.genomes);
+    auto const refusal = [&](Channels const& channels) {
+        return test::complaint_of([&] { read_founders(scratch.file("f.lore"), channels); });
+    };
+    EXPECT_THAT(refusal(test::toys_world().channels),
+                HasSubstr("f.lore does not fit the world (made for 12 sensors and 3 effectors, not for 19 and 2)"));
+    std::vector<ChannelInfo> all(founders.world.channels.all().begin(), founders.world.channels.all().end());
+    all[9].name = "whiskers";
+    EXPECT_THAT(refusal({{all.begin(), all.begin() + 12}, {all.begin() + 12, all.end()}}),
+                HasSubstr("its channel 9 is binary 'bumper_right', not binary 'whiskers'"));
+}
+
+TEST(FoundersFile, may_know_no_more_of_its_world_than_the_channels) {
+    Scratch const scratch;
+    FoundersFile founders{"clones of a knowledge base", "{}", {}, {}};
+    founders.world.channels = test::toys_world().channels;
+    founders.genomes.push_back(founder(founders.world.interface(), Stream{1, Purpose::founder}));
+    write_founders(scratch.file("f.lore"), founders);
+    FoundersFile const back = read_founders(scratch.file("f.lore"), founders.world.channels);
+    EXPECT_EQ(back.genomes, founders.genomes);
+    EXPECT_EQ(back.world, founders.world);
 }
 
 TEST(FoundersFile, cut_or_without_genomes_is_refused) {
     Scratch const scratch;
     write_founders(scratch.file("f.lore"), sample());
-    Bytes const payload = read_container(scratch.file("f.lore"), FileKind::founders);
+    Bytes const payload = read_container(scratch.file("f.lore"), FileKind::founders).bytes;
     for (std::size_t length = 0; length < payload.size(); length += length < 300 ? 1 : 97)
-        EXPECT_THROW(unpack_founders(std::span{payload}.first(length), "x"), Error) << length;
-    write_founders(scratch.file("none.lore"), {"none", "{}", {}});
+        EXPECT_THROW(
+            unpack_founders({Bytes(payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(length))}, "x"),
+            Error)
+            << length;
+    write_founders(scratch.file("none.lore"), {"none", "{}", {}, test::robots_world()});
     EXPECT_THROW(read_founders(scratch.file("none.lore")), Error);
 }

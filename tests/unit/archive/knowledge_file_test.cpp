@@ -1,10 +1,12 @@
 #include <lore/archive/knowledge_file.h>
 
+#include "archive/random_population.h"
 #include "support/complaint.h"
 #include "support/scratch.h"
 
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/container.h>
+#include <lore/archive/knowledge_export.h>
 #include <lore/core/error.h>
 #include <lore/core/random.h>
 
@@ -30,7 +32,7 @@ EvidenceArrays some_evidence(Stream& rng, int features, Parts const& parts) {
     EvidenceArrays evidence;
     for (int i = 0; i < parts.gammas; ++i) evidence.gammas.push_back(0.5 + 0.01 * i);
     evidence.has_credit = parts.credit;
-    if (parts.contrast) evidence.success_balls = 2, evidence.successes = 20, evidence.failures = 30;
+    if (parts.contrast) evidence.success_reward = 1.5, evidence.successes = 20, evidence.failures = 30;
     for (int i = 0; i < features; ++i) {
         if (parts.gammas > 0) evidence.showings.push_back(1 + rng.below(9));
         for (int gamma = 0; gamma < parts.gammas; ++gamma) evidence.return_sums.push_back(rng.uniform());
@@ -46,17 +48,19 @@ EvidenceArrays some_evidence(Stream& rng, int features, Parts const& parts) {
     return evidence;
 }
 
-KnowledgeBase some_base(int features, int window_length, Parts const& parts = {}) {
+KnowledgeBase some_base(int features, int window_length, Parts const& parts = {},
+                        Channels const& channels = collectball_channels()) {
     Stream rng{1, Purpose::test, 0, static_cast<std::uint32_t>(features)};
     KnowledgeArrays arrays;
     for (int i = 0; i < features; ++i) {
         for (int step = 0; step < window_length; ++step) {
-            arrays.bits.push_back(static_cast<std::uint16_t>(rng.below(window_bits_mask + 1)));
-            for (int channel = 0; channel < continuous_count; ++channel)
+            for (int word = 0; word < channels.words(); ++word)
+                arrays.bits.push_back(static_cast<std::uint16_t>(rng.below(1u << 16) & binary_mask(channels, word)));
+            for (int channel = 0; channel < channels.continuous_count(); ++channel)
                 arrays.windows.push_back(static_cast<float>(rng.uniform()));
         }
         arrays.counts.push_back(1 + rng.below(9));
-        arrays.reward_sums.push_back(rng.below(30));
+        arrays.reward_sums.push_back(rng.below(30) - 7.25);
         arrays.values.push_back(arrays.reward_sums.back() / arrays.counts.back());
     }
     arrays.evidence = some_evidence(rng, features, parts);
@@ -70,8 +74,8 @@ KnowledgeBase some_base(int features, int window_length, Parts const& parts = {}
     provenance.task = "collectball source";
     provenance.individuals = 12;
     provenance.windows = 1u << 30;
-    provenance.best_balls = 7;
-    return KnowledgeBase{{window_length, 1.83f}, provenance, std::move(arrays)};
+    provenance.best_reward = 7;
+    return KnowledgeBase{{window_length, 1.83f, channels}, provenance, std::move(arrays)};
 }
 
 template <class T>
@@ -94,7 +98,7 @@ void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
     EXPECT_EQ(left.has_credit, right.has_credit);
     EXPECT_EQ(copy_of(left.news), copy_of(right.news));
     EXPECT_EQ(copy_of(left.gain_sums), copy_of(right.gain_sums));
-    EXPECT_EQ(left.success_balls, right.success_balls);
+    EXPECT_EQ(left.success_reward, right.success_reward);
     EXPECT_EQ(left.successes, right.successes);
     EXPECT_EQ(left.failures, right.failures);
     EXPECT_EQ(copy_of(left.successes_that_showed), copy_of(right.successes_that_showed));
@@ -112,7 +116,7 @@ std::string refusal(Scratch const& scratch, Bytes const& file) {
 Bytes payload_of(Scratch const& scratch, KnowledgeBase const& base) {
     std::string const path = scratch.file("good.lorekb");
     write_knowledge_base(path, base);
-    return read_container(path, FileKind::knowledge_base);
+    return read_container(path, FileKind::knowledge_base).bytes;
 }
 
 /// The error of a file that is whole but whose payload was forged.
@@ -133,7 +137,50 @@ TEST(KnowledgeFile, gives_back_what_was_written) {
         }
 }
 
-TEST(KnowledgeFile, gives_back_every_part_of_the_evidence_and_keeps_layout_1_where_there_is_none) {
+TEST(KnowledgeFile, gives_back_windows_of_any_channels) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    std::vector<ChannelInfo> many;
+    for (int i = 0; i < 64; ++i) many.push_back({"channel_" + std::to_string(i), i % 3 == 0});
+    Channels const binary{{{"a", true}}, {{"b", true}}}, continuous{{{"a", false}}, {{"b", false}}},
+        wide{many, {{"left", false}, {"right", true}}};
+    for (Channels const& channels : {binary, continuous, test::toys_world().channels, wide}) {
+        KnowledgeBase const base = some_base(9, 4, {2, true, true}, channels);
+        write_knowledge_base(path, base);
+        KnowledgeBase const read = read_knowledge_base(path);
+        expect_equal(read, base);
+        EXPECT_EQ(world_record(read).channels, channels);
+    }
+}
+
+TEST(KnowledgeFile, names_the_best_reward_by_the_world_s_unit) {
+    Scratch const scratch;
+    std::string const path = scratch.file("kb.lorekb");
+    KnowledgeBase::Parts parts = some_base(1, 1).parts();
+    EXPECT_THAT(provenance_json(KnowledgeBase{parts}), HasSubstr("\"best_balls\": 7,"));
+    parts.provenance.reward_unit = "points";
+    parts.provenance.best_reward = -1.5;
+    KnowledgeBase const base{parts};
+    EXPECT_THAT(provenance_json(base), HasSubstr("\"best_points\": -1.5,"));
+    write_knowledge_base(path, base);
+    expect_equal(read_knowledge_base(path), base);
+}
+
+TEST(KnowledgeFile, refuses_bits_of_continuous_channels_and_beyond_the_last) {
+    Scratch const scratch;
+    Channels const channels = test::toys_world().channels;   // 11 binary channels, 10 continuous; two words a step
+    Bytes const good = payload_of(scratch, some_base(1, 2, {}, channels));
+    // Values at 64, sums at 128, counts at 192, windows of 80 bytes at 256, bits at 384.
+    for (std::size_t const at : {384u, 386u, 388u, 390u}) {
+        Bytes payload = good;
+        std::uint16_t const all = 0xffff;
+        std::memcpy(payload.data() + at, &all, sizeof all);
+        EXPECT_THAT(refusal_of_payload(scratch, payload), HasSubstr("unknown channels")) << at;
+    }
+    EXPECT_EQ(refusal_of_payload(scratch, good), "");
+}
+
+TEST(KnowledgeFile, gives_back_every_part_of_the_evidence) {
     Scratch const scratch;
     std::string const path = scratch.file("kb.lorekb");
     for (Parts const parts :
@@ -142,10 +189,6 @@ TEST(KnowledgeFile, gives_back_every_part_of_the_evidence_and_keeps_layout_1_whe
             KnowledgeBase const base = some_base(features, 3, parts);
             write_knowledge_base(path, base);
             expect_equal(read_knowledge_base(path), base);
-            std::uint32_t layout = 0;
-            Bytes const payload = read_container(path, FileKind::knowledge_base);
-            std::memcpy(&layout, payload.data(), sizeof layout);
-            EXPECT_EQ(layout, base.evidence().none() ? 1u : 2u);
         }
 }
 
@@ -166,7 +209,7 @@ TEST(KnowledgeFile, refuses_evidence_outside_its_range) {
     EXPECT_THAT(with(576, std::uint64_t{0}), HasSubstr("nobody showed"));
     EXPECT_THAT(with(640, not_a_number), HasSubstr("evidence is not finite"));
     EXPECT_THAT(with(768, not_a_number), HasSubstr("evidence is not finite"));
-    EXPECT_THAT(with(832 + 16, std::uint32_t{0}), HasSubstr("need no balls"));
+    EXPECT_THAT(with(832 + 16, not_a_number), HasSubstr("successes is not finite"));
     EXPECT_THAT(with(896, std::uint32_t{21}), HasSubstr("more have shown"));
     EXPECT_THAT(with(960, std::uint32_t{31}), HasSubstr("more have shown"));
     EXPECT_THAT(with(20, std::uint32_t{0}), HasSubstr("no known kind"));
@@ -233,11 +276,13 @@ TEST(KnowledgeFile, refuses_numbers_outside_their_range_in_a_file_that_is_whole)
     EXPECT_THAT(with(256, std::numeric_limits<float>::quiet_NaN()), HasSubstr("0 .. 1"));
     EXPECT_THAT(with(256 + 140, 1.5f), HasSubstr("0 .. 1"));
     EXPECT_THAT(with(448, std::uint16_t{0x200}), HasSubstr("unknown channels"));
-    EXPECT_THAT(with(0, std::uint32_t{3}), HasSubstr("newer Lore"));
+    EXPECT_THAT(with(0, std::uint32_t{4}), HasSubstr("newer Lore"));
     EXPECT_THAT(with(4, std::uint32_t{0}), HasSubstr("window length"));
     EXPECT_THAT(with(4, std::uint32_t{3}), HasSubstr("do not fit"));
     EXPECT_THAT(with(8, std::numeric_limits<float>::quiet_NaN()), HasSubstr("threshold"));
-    EXPECT_THAT(with(12, std::uint32_t{8}), HasSubstr("channels"));
+    EXPECT_THAT(with(12, std::uint32_t{8}), HasSubstr("it has 8 binary and 6 continuous channels, its world 9 and 6"));
+    EXPECT_THAT(with(12, std::uint32_t{75}), HasSubstr("it has 75 binary and 6 continuous channels"));
+    EXPECT_THAT(with(16, ~std::uint32_t{0}), HasSubstr("channels"));
     EXPECT_THAT(with(24, std::uint64_t{40}), HasSubstr("do not fit"));
     EXPECT_THAT(with(24, ~std::uint64_t{0}), HasSubstr("do not fit"));
     EXPECT_THAT(with(32, ~std::uint64_t{0}), HasSubstr("do not fit"));

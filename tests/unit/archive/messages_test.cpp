@@ -15,11 +15,11 @@ using lore::test::pointers_to;
 
 namespace {
 
-std::vector<Genome> mutated_genomes(int count) {
+std::vector<Genome> mutated_genomes(int count, Interface interface = test::robot) {
     std::vector<Genome> genomes;
     for (int i = 0; i < count; ++i) {
         Stream rng{3, Purpose::test, 0, static_cast<std::uint32_t>(i)};
-        Genome genome = founder(rng);
+        Genome genome = founder(interface, rng);
         for (int k = 0; k < i; ++k) mutate(genome, {}, {}, rng);
         genomes.push_back(std::move(genome));
     }
@@ -47,6 +47,15 @@ TEST(Messages, carry_genomes_and_evaluations_unchanged) {
     }
 }
 
+TEST(Messages, carry_genomes_and_evaluations_of_any_interface) {
+    for (Interface const interface : {Interface{1, 1}, {19, 2}, {64, 16}}) {
+        auto const genomes = mutated_genomes(12, interface);
+        EXPECT_EQ(unpack_genomes(pack_genomes(pointers_to(genomes))), genomes);
+        auto const deliveries = deliveries_of(genomes, 400);
+        EXPECT_EQ(unpack_deliveries(pack_deliveries(deliveries)), deliveries);
+    }
+}
+
 TEST(Messages, carry_bits_that_repeat_in_little_space) {
     Stream rng{1, Purpose::test};
     for (int length : {0, 1, 2, 127, 128, 129, 4000}) {
@@ -60,6 +69,26 @@ TEST(Messages, carry_bits_that_repeat_in_little_space) {
         EXPECT_EQ(unpack_deliveries(bytes).at(0), delivery);
         EXPECT_LT(bytes.size(), 400u);
     }
+}
+
+TEST(Messages, carry_bits_of_many_channels_that_repeat_in_little_space) {
+    Stream rng{2, Purpose::test};
+    for (int const channels : {16, 17, 48, 80})
+        for (int const steps : {0, 1, 2, 17, 4000}) {
+            Delivery delivery;
+            Descriptors& descriptors = delivery.evaluation.descriptors;
+            descriptors.entropies.resize(static_cast<std::size_t>(channels));
+            int const words = descriptors.words();
+            std::vector<std::uint16_t> step(static_cast<std::size_t>(words));
+            for (int s = 0; s < steps; ++s) {
+                if (s % 300 == 0)   // one word alone changes
+                    step[rng.below(static_cast<std::uint32_t>(words))] = static_cast<std::uint16_t>(rng.below(1u << 8));
+                descriptors.channel_bits.insert(descriptors.channel_bits.end(), step.begin(), step.end());
+            }
+            Bytes const bytes = pack_deliveries({&delivery, 1});
+            EXPECT_EQ(unpack_deliveries(bytes).at(0), delivery) << channels << " " << steps;
+            EXPECT_LT(bytes.size(), 1000u);
+        }
 }
 
 TEST(Messages, carry_rows_of_distances) {

@@ -82,6 +82,21 @@ TEST(MeasureRows, equals_the_definition_to_the_bit_for_pools_of_any_size) {
     }
 }
 
+TEST(MeasureRows, equals_the_definition_for_any_channels_and_outcomes) {
+    Stream rng{18, Purpose::test};
+    for (int const channels : {1, 2, 14, 16, 17, 32, 33, 79, 80}) {
+        DescriptorSizes const sizes{static_cast<int>(rng.below(20)), channels};
+        SCOPED_TRACE(std::to_string(channels) + " channels, " + std::to_string(sizes.outcome_size) + " outcomes");
+        std::vector<Descriptors> alike, different;
+        for (int i = 0; i < 20; ++i) alike.push_back(random_behavior(rng, 1100, sizes));
+        for (int const steps : {0, 1, 51, 1023, 1024, 1025}) different.push_back(random_behavior(rng, steps, sizes));
+        for (int i = 0; i < 20; ++i)
+            different.push_back(random_behavior(rng, static_cast<int>(rng.below(2100)), sizes));
+        expect_fast_equals_plain(alike, all_kinds);
+        expect_fast_equals_plain(different, all_kinds);
+    }
+}
+
 TEST(MeasureRows, equals_the_definition_for_evaluations_of_full_length) {
     Stream rng{12, Purpose::test};
     std::vector<Descriptors> pool;

@@ -18,9 +18,10 @@ Descriptors path(std::vector<Tile> tiles) {
     return d;
 }
 
-Descriptors bits(std::vector<std::uint16_t> words) {
+Descriptors bits(std::vector<std::uint16_t> words, int channels = 15) {
     Descriptors d;
     d.channel_bits = std::move(words);
+    d.entropies.resize(static_cast<std::size_t>(channels));
     return d;
 }
 
@@ -32,12 +33,13 @@ TEST(DistanceKind, is_read_by_its_name) {
     EXPECT_THROW(distance_kind("haming"), UsageError);
 }
 
-TEST(AdhocDistance, is_euclidean_over_all_balls) {
+TEST(AdhocDistance, is_euclidean_over_all_numbers_of_the_outcome) {
     Descriptors a, b;
-    a.ball_positions = {{0, 0}, {10, 10}};
-    b.ball_positions = {{3, 4}, {10, 22}};
+    a.outcome = {0, 0, 10};
+    b.outcome = {3, 4, 22};
     EXPECT_EQ(adhoc_distance(a, b), 13.0);
     EXPECT_EQ(adhoc_distance(a, a), 0.0);
+    EXPECT_EQ(adhoc_distance({}, {}), 0.0) << "worlds without an outcome";
 }
 
 TEST(HammingDistance, is_the_fraction_of_differing_bits) {
@@ -49,6 +51,13 @@ TEST(HammingDistance, counts_steps_that_only_one_lived_as_wholly_different) {
     EXPECT_EQ(hamming_distance(bits({1}), bits({0, 0, 0})), (1 + 30) / 45.0);
     EXPECT_EQ(hamming_distance(bits({}), bits({5})), 1.0);
     EXPECT_EQ(hamming_distance(bits({}), bits({})), 0.0);
+}
+
+TEST(HammingDistance, counts_the_channels_that_there_are) {
+    EXPECT_EQ(hamming_distance(bits({1, 0, 1}, 1), bits({0, 0, 1}, 1)), 1 / 3.0);
+    // Two steps of 18 channels; then one step that only one lived.
+    EXPECT_EQ(hamming_distance(bits({1, 0, 0, 2}, 18), bits({0, 0, 1, 1}, 18)), 4 / 36.0);
+    EXPECT_EQ(hamming_distance(bits({1, 0, 0, 2}, 18), bits({1, 1}, 18)), (1 + 18) / 36.0);
 }
 
 TEST(TrajectoryDistance, of_a_worked_four_by_four_case_with_a_transposition) {
@@ -101,8 +110,8 @@ TEST(TrajectoryDistance, is_the_cheapest_of_all_edit_scripts) {
 
 TEST(EntropyDistance, is_euclidean_over_all_channels) {
     Descriptors a, b;
-    a.entropies[0] = 0.3;
-    b.entropies[14] = 0.4;
+    a.entropies = {0.3, 0, 0.2};
+    b.entropies = {0, 0.4, 0.2};
     EXPECT_EQ(entropy_distance(a, b), 0.5);
 }
 

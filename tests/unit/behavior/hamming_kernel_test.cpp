@@ -1,10 +1,10 @@
 #include "hamming_kernel.h"
 
-#include <lore/core/channels.h>
 #include <lore/core/random.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -65,28 +65,44 @@ TEST(HammingKernel, counts_none_and_all) {
 TEST(HammingKernel, splits_steps_into_planes_in_one_order_of_steps_for_all_channels) {
     Stream rng{19, Purpose::test};
     std::vector<std::uint16_t> steps(steps_per_plane);
-    for (std::uint16_t& word : steps) word = static_cast<std::uint16_t>(rng.below(1u << 15));
+    for (std::uint16_t& word : steps) word = static_cast<std::uint16_t>(rng.below(1u << 16));
     constexpr std::ptrdiff_t stride = words_per_plane + 3;
     auto const column = [](std::vector<std::uint64_t> const& planes, int bit) {
         std::uint16_t word = 0;
-        for (int channel = 0; channel < channel_count; ++channel)
+        for (int channel = 0; channel < channels_of_word; ++channel)
             word =
                 static_cast<std::uint16_t>(word | (planes[channel * stride + bit / 64] >> (bit % 64) & 1u) << channel);
         return word;
     };
     for (HammingKernel const& kernel : kernels()) {
-        std::vector<std::uint64_t> planes(channel_count * stride);
+        std::vector<std::uint64_t> planes(channels_of_word * stride);
         // Each step alone finds its place; then all together must be found in their places.
         std::vector<int> place(steps_per_plane, -1);
         for (int step = 0; step < steps_per_plane; ++step) {
             std::vector<std::uint16_t> alone(steps_per_plane);
             alone[step] = 1u << 7;
-            kernel.split(alone.data(), planes.data(), stride);
+            kernel.split(alone.data(), planes.data(), stride, channels_of_word);
             for (int bit = 0; bit < steps_per_plane; ++bit)
                 if (column(planes, bit) != 0) place[step] = place[step] == -1 ? bit : -2;
             ASSERT_GE(place[step], 0) << "step " << step;
         }
-        kernel.split(steps.data(), planes.data(), stride);
+        kernel.split(steps.data(), planes.data(), stride, channels_of_word);
         for (int step = 0; step < steps_per_plane; ++step) ASSERT_EQ(column(planes, place[step]), steps[step]);
+    }
+}
+
+TEST(HammingKernel, splits_off_the_wanted_channels_alone) {
+    Stream rng{20, Purpose::test};
+    std::vector<std::uint16_t> steps(steps_per_plane);
+    for (std::uint16_t& word : steps) word = static_cast<std::uint16_t>(rng.below(1u << 16));
+    for (HammingKernel const& kernel : kernels()) {
+        std::vector<std::uint64_t> all(channels_of_word * words_per_plane);
+        kernel.split(steps.data(), all.data(), words_per_plane, channels_of_word);
+        for (int channels = 1; channels < channels_of_word; ++channels) {
+            std::vector<std::uint64_t> some(all.size(), 5), expected = some;
+            std::copy_n(all.begin(), channels * words_per_plane, expected.begin());
+            kernel.split(steps.data(), some.data(), words_per_plane, channels);
+            ASSERT_EQ(some, expected) << channels << " channels";
+        }
     }
 }

@@ -3,7 +3,7 @@
 #include <lore/behavior/descriptors.h>
 #include <lore/core/random.h>
 
-#include <concepts>
+#include <cstdint>
 #include <vector>
 
 namespace lore {
@@ -11,18 +11,23 @@ namespace lore {
 /// Fills the fields of Descriptors by what they hold.
 class RandomField {
 public:
-    RandomField(Stream& rng, int steps, int balls) : rng_(rng), steps_(steps), balls_(balls) {}
+    RandomField(Stream& rng, int steps, int outcome_size, int channels)
+        : rng_(rng), steps_(steps), outcome_size_(outcome_size), channels_(channels) {}
 
-    void operator()(std::vector<Point>& points) const {
-        for (int i = 0; i < balls_; ++i)
-            points.push_back({static_cast<float>(rng_.uniform(0, 600)), static_cast<float>(rng_.uniform(0, 400))});
+    void operator()(std::vector<float>& outcome) const {
+        for (int i = 0; i < outcome_size_; ++i) outcome.push_back(static_cast<float>(rng_.uniform(0, 600)));
     }
     /// Bits that rarely change.
     void operator()(std::vector<std::uint16_t>& words) const {
-        std::uint16_t word = static_cast<std::uint16_t>(rng_.below(1u << channel_count));
+        std::vector<std::uint16_t> now(static_cast<std::size_t>(channels_ + 15) / 16);
+        auto const flip = [&](std::uint32_t channel) {
+            now[channel / 16] ^= static_cast<std::uint16_t>(1u << channel % 16);
+        };
+        for (std::uint32_t channel = 0; channel < static_cast<std::uint32_t>(channels_); ++channel)
+            if (rng_.coin()) flip(channel);
         for (int step = 0; step < steps_; ++step) {
-            if (rng_.chance(0.05)) word ^= static_cast<std::uint16_t>(1u << rng_.below(channel_count));
-            words.push_back(word);
+            if (rng_.chance(0.05)) flip(rng_.below(static_cast<std::uint32_t>(channels_)));
+            words.insert(words.end(), now.begin(), now.end());
         }
     }
     /// Lingers in a tile and then goes to a neighboring one, of twelve by eight.
@@ -36,11 +41,12 @@ public:
             path.push_back(tile);
         }
     }
-    template <std::floating_point Number, std::size_t size>
-    void operator()(std::array<Number, size>& numbers) const {
-        for (Number& number : numbers) number = static_cast<Number>(rng_.uniform());
+    void operator()(std::vector<double>& entropies) const {
+        for (int channel = 0; channel < channels_; ++channel) entropies.push_back(rng_.uniform());
     }
-    void operator()(std::int32_t& count) const { count = static_cast<std::int32_t>(rng_.below(1000)); }
+    void operator()(double& number) const {
+        number = rng_.uniform();
+    }   ///< of a field that a reader of extending.md adds
 
 private:
     void move(std::uint8_t& place, int last) const {
@@ -50,12 +56,18 @@ private:
     }
 
     Stream& rng_;
-    int steps_, balls_;
+    int steps_, outcome_size_, channels_;
 };
 
-inline Descriptors random_behavior(Stream& rng, int steps, int balls = 8) {
+/// What the descriptors' sizes depend on besides the steps; those of the paper.
+struct DescriptorSizes {
+    int outcome_size = 16;
+    int channels = 15;
+};
+
+inline Descriptors random_behavior(Stream& rng, int steps, DescriptorSizes const& sizes = {}) {
     Descriptors d;
-    for_each_field(d, RandomField{rng, steps, balls});
+    for_each_field(d, RandomField{rng, steps, sizes.outcome_size, sizes.channels});
     return d;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 using namespace lore;
 
@@ -16,15 +17,15 @@ CampaignPlan wishes(std::vector<double> const& levels) {
     for (double const level : levels) {
         KnowledgePlan knowledge;
         knowledge.name = "kb" + std::to_string(plan.knowledge.size() + 1);
-        knowledge.wished_balls = level;
+        knowledge.wished_reward = level;
         plan.knowledge.push_back(knowledge);
     }
     return plan;
 }
 
-std::vector<SourceRun> runs_with(std::vector<int> const& balls) {
+std::vector<SourceRun> runs_with(std::vector<double> const& rewards) {
     std::vector<SourceRun> runs;
-    for (int const b : balls) runs.push_back({static_cast<int>(runs.size()) + 1, runs.size() + 1, b});
+    for (double const reward : rewards) runs.push_back({static_cast<int>(runs.size()) + 1, runs.size() + 1, reward});
     return runs;
 }
 
@@ -39,7 +40,7 @@ std::vector<int> chosen(Choice const& choice) {
 TEST(Choice, takes_the_nearest_level_not_yet_taken_and_the_lowest_seed_among_equals) {
     //                                 run    1  2  3  4  5  6
     Choice const choice = choose_runs(wishes({7, 6, 5, 3}), runs_with({5, 7, 3, 7, 4, 5}), {});
-    // 7: runs 2 and 4, the lower seed 2. 6: 4 (7 balls), 1 and 6 (5 balls) are equally near: run 1. 5: run 6. 3: run 3.
+    // 7: runs 2 and 4, the lower seed 2. 6: 4 (it has 7), 1 and 6 (5) are equally near: run 1. 5: run 6. 3: run 3.
     EXPECT_EQ(chosen(choice), (std::vector<int>{2, 1, 6, 3}));
 }
 
@@ -69,9 +70,32 @@ TEST(Choice, is_recorded_and_read_back) {
     write_choice(scratch.file("choice.json"), choice);
     Choice const read = read_choice(scratch.file("choice.json"));
     EXPECT_EQ(chosen(read), chosen(choice));
-    EXPECT_EQ(read.of("kb2").balls, 6);
+    EXPECT_EQ(read.of("kb2").reward, 6);
     EXPECT_EQ(read.considered.size(), 3u);
     EXPECT_EQ(read.without, std::vector<int>{9});
+}
+
+TEST(Choice, takes_the_nearest_of_rewards_that_are_negative_and_not_whole) {
+    Choice const choice = choose_runs(wishes({-2, -100}), runs_with({-1.5, -2.25, -40.5}), {});
+    EXPECT_EQ(chosen(choice), (std::vector<int>{2, 3}));
+}
+
+TEST(Choice, is_recorded_with_the_unit_that_its_rewards_have) {
+    Scratch const scratch;
+    auto const recorded = [&](std::string const& unit) {
+        Choice choice = choose_runs(wishes({-2}), runs_with({-1.5, -2.25}), {});
+        choice.reward_unit = unit;
+        write_choice(scratch.file("choice.json"), choice);
+        std::ifstream file{scratch.file("choice.json")};
+        return std::string{std::istreambuf_iterator<char>{file}, {}};
+    };
+    std::string const first = recorded("balls"), other = recorded("cos");
+    EXPECT_NE(first.find("\"balls\": -2.25"), std::string::npos) << first;
+    EXPECT_EQ(first.find("reward"), std::string::npos);
+    EXPECT_NE(other.find("\"reward\": -2.25"), std::string::npos) << other;
+    Choice const read = read_choice(scratch.file("choice.json"));
+    EXPECT_EQ(read.reward_unit, "cos");
+    EXPECT_EQ(read.of("kb1").reward, -2.25);
 }
 
 TEST(Choice, refuses_a_damaged_record) {

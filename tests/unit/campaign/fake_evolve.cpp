@@ -12,6 +12,7 @@
 #include <lore/experiment/run_directory.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -103,25 +104,33 @@ int main(int argc, char** argv) {
         manifest.seed = std::stoull(seed);
         manifest.name = config.name;
         manifest.task = config.task;
+        // Of another unit rewards are negative and not whole.
+        std::string const unit = from_environment("LORE_FAKE_UNIT");
+        manifest.world.reward_unit = unit.empty() ? "balls" : unit;
+        if (!unit.empty()) {
+            manifest.world.name = manifest.world.task = "toy";
+            manifest.world.channels = {std::vector<ChannelInfo>{{"sensor"}}, std::vector<ChannelInfo>{{"effector"}}};
+        }
         manifest.generations = config.evolution.generations;
         manifest.build = build_information();
 
         std::string const progress = out + "/" + run_file::progress;
         int generation = 0;
         if (fs::exists(progress)) generation = static_cast<int>(read_progress(progress).size());
-        else std::ofstream{progress} << progress_header() << "\n";
-        // Balls rise with the generations to a level that the treatment and the seed decide.
+        else std::ofstream{progress} << progress_header(manifest.world.reward_unit) << "\n";
+        // The reward rises with the generations to a level that the treatment and the seed decide.
         Stream rng{manifest.seed, Purpose::test, static_cast<std::uint32_t>(treatment.size() + kb.size() % 7)};
         double const level = 2 + rng.below(5) + (kb.empty() ? 0 : 2);
         for (; generation <= config.evolution.generations; ++generation) {
             GenerationSummary row;
             row.generation = generation;
-            row.best_balls = static_cast<int>(level * generation / config.evolution.generations);
+            row.best_reward = std::floor(level * generation / config.evolution.generations);
+            if (!unit.empty()) row.best_reward = row.mean_reward = 0.125 * row.best_reward - 10.5;
             row.evaluations = 400 + 200ull * static_cast<unsigned>(generation);
             row.seconds = 0.001 * milliseconds * generation;
             std::ofstream{progress, std::ios::app} << text(row) << "\n";
             manifest.generation = generation;
-            manifest.best_balls = row.best_balls;
+            manifest.best_reward = row.best_reward;
             manifest.status = RunStatus::interrupted;
             if (stop != 0 && generation < config.evolution.generations) {
                 write_manifest(out + "/" + run_file::manifest, manifest);

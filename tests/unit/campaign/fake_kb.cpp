@@ -1,6 +1,7 @@
 // Stands in for lore-kb in the campaign's tests: checks that what it is to read is there, writes a tiny knowledge base.
 
 #include <lore/archive/knowledge_file.h>
+#include <lore/collectball/collectball.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
     };
     auto const memory = std::make_shared<Memory>();
     lore::KnowledgeBase::Parts parts;
+    parts.config.channels = lore::collectball_channels();
     parts.provenance.kind = arguments[0] == "randomize" ? "random" : arguments[0] == "reduce" ? "reduced" : "lineage";
     for (auto const& word : arguments)
         if (word == "--all") parts.provenance.kind = "all";

@@ -2,9 +2,11 @@
 
 #include <lore/campaign/choice.h>
 #include <lore/campaign/steps.h>
+#include <lore/campaign/worlds.h>
 #include <lore/core/error.h>
 
 #include "campaign_fixture.h"
+#include "support/c_worlds.h"
 #include "support/complaint.h"
 
 #include <campaign/knowledge_kinds.h>
@@ -90,8 +92,9 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
               std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
-    EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls' or 'run'"),
-              std::string::npos);
+    EXPECT_NE(
+        complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls', 'reward' or 'run'"),
+        std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
     EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
@@ -253,14 +256,14 @@ TEST_F(Campaign, refuses_values_that_no_evidence_will_give) {
     expect("kb1", "\"return\"\ngamma = nan", "gamma");
     expect("kb1", "\"mean\"\ngamma = 0.9", "only return discounts");
     expect("kb1", "\"credit\"\nsuccess = 2", "only contrast counts them");
-    expect("kb1_all", "\"contrast\"\nsuccess = 0", "it takes 1 to");
+    expect("kb1_all", "\"contrast\"\nsuccess = nan", "success");
     expect("kb1", "\"contrast\"", "a lineage has no contemporaries");
     expect("kb1_random", "\"contrast\"", "a lineage has no contemporaries");
     expect("kb1_all", "\"credit\"", "it takes pairs of parent and child");
     expect("kb3", "\"mean\"", "there is no 'kb3' before it");
     std::string const two = complaint_of(revalued("a", "kb1_all", "\"contrast\"\nsuccess = 2") +
                                          revalued("b", "kb1_all", "\"contrast\"\nsuccess = 3"));
-    EXPECT_NE(two.find("'kb1_all' counts successes of 2 balls already"), std::string::npos) << two;
+    EXPECT_NE(two.find("'kb1_all' counts successes of 2 already"), std::string::npos) << two;
     std::string const own = complaint("all_of = \"kb1\"", "all_of = \"kb1\"\noptions = [\"--success\", \"2\"]\n" +
                                                               revalued("a", "kb1_all", "\"contrast\"\nsuccess = 2"));
     EXPECT_NE(own.find("the options of 'kb1_all' have --success"), std::string::npos) << own;
@@ -270,6 +273,28 @@ TEST_F(Campaign, refuses_values_that_no_evidence_will_give) {
                          std::string{"\"return\"\ngamma = 0."}.append(std::to_string(10 + i)));
     EXPECT_NE(complaint_of(many).find("more than 16 gammas"), std::string::npos);
     EXPECT_NE(complaint_of("[[knowledge]]\nname = \"x\"\nrevalued_of = \"kb1\"\n").find("value"), std::string::npos);
+}
+
+TEST_F(Campaign, opens_the_world_of_every_treatment_before_the_first_run) {
+    auto const complaint = [&] { return test::complaint_of<UsageError>([&] { check_worlds(plan()); }); };
+    EXPECT_NO_THROW(check_worlds(plan()));
+    write("target.toml", "name = \"target\"\n[world]\nlibrary = \"nowhere\"\n");
+    EXPECT_NE(complaint().find("cannot open the world of treatment 'none'"), std::string::npos) << complaint();
+    EXPECT_NE(complaint().find("nowhere"), std::string::npos);
+    write("target.toml", "name = \"target\"\n[world]\nlibrary = \"" + test::c_world("pendulum") + "\"\n");
+    EXPECT_NE(complaint().find("treatment 'kb1' cannot take knowledge = 'kb1'"), std::string::npos) << complaint();
+    write("source.toml", "name = \"source\"\n[world]\nlibrary = \"" + test::c_world("pendulum") + "\"\n");
+    EXPECT_NO_THROW(check_worlds(plan())) << "all in one world";
+}
+
+TEST_F(Campaign, wishes_for_any_reward_and_times_levels_that_increase) {
+    std::string text = test::small_campaign;
+    text.replace(text.find("balls = 6"), 9, "reward = -12.5");
+    write("campaign.toml", text + "levels = [-20.5, 0, 3]\n");
+    EXPECT_EQ(plan().knowledge_base("kb1").wished_reward, -12.5);
+    EXPECT_EQ(plan().levels, (std::vector<double>{-20.5, 0, 3}));
+    write("campaign.toml", test::small_campaign + "levels = [1, 1]\n");
+    EXPECT_NE(test::complaint_of<UsageError>([&] { plan(); }).find("levels"), std::string::npos);
 }
 
 TEST_F(Campaign, has_every_kind_of_knowledge_and_input_of_treatments_in_its_documentation) {

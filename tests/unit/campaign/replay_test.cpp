@@ -1,13 +1,17 @@
 #include "campaign_fixture.h"
 
 #include <lore/archive/knowledge_file.h>
-#include <lore/arena/arena.h>
+#include <lore/collectball/arena.h>
 #include <lore/campaign/choice.h>
 #include <lore/campaign/replay_step.h>
 #include <lore/experiment/knowledge_building.h>
+#include <support/c_worlds.h>
 #include <support/small_run.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
 
 using namespace lore;
 
@@ -41,9 +45,9 @@ protected:
               "name = \"experiment\"\ntask = \"source\"\n[episode]\nsteps = 400\n[evolution]\npopulation = 8\n"
               "founders = 16\ngenerations = 6\n[diversity]\nperiod = 2\n");
     }
-    void make_run(std::string const& step, std::string const& signature) const {
+    void make_run(std::string const& step, std::string const& signature, WorldRequest const& world = {}) const {
         std::string const run = directory().run(step), manifest_path = run + "/" + run_file::manifest;
-        if (!std::filesystem::exists(run)) test::write_small_run(run);
+        if (!std::filesystem::exists(run)) test::write_small_run(run, 1, world);
         Manifest manifest = read_manifest(manifest_path);
         manifest.seed = 1;
         manifest.signature = signature;
@@ -71,7 +75,7 @@ TEST_F(ReplayStepTest, simulates_the_source_run_and_the_best_target_run_and_valu
     EXPECT_EQ(shown.replays[1].run, "none/001");
     EXPECT_EQ(shown.replays[1].signature, "00000000000000bb");
     EXPECT_EQ(shown.replays[1].steps.size(), 400u);
-    EXPECT_EQ(shown.replays[0].scene, scene_of(load_arena("collectball", "source"))) << "to the bit";
+    EXPECT_EQ(shown.replays[0].arena->scene, scene_of(load_arena("collectball", "source"))) << "to the bit";
     ASSERT_EQ(shown.panels.size(), 2u);
     ASSERT_EQ(shown.panels[0].values.size(), 20u) << "windows of 20 steps";
     EXPECT_EQ(shown.panels[1].knowledge, "kb1*kb1");
@@ -126,4 +130,46 @@ TEST_F(ReplayStepTest, files_that_do_not_belong_together_are_refused) {
     write("c/scene.json", "{\"replays\": [{}]}");
     EXPECT_THROW(read_scenes(directory()), Error);
     EXPECT_EQ(replay_is_due(plan(), directory(), directory()), "scene.json is damaged");
+}
+
+TEST_F(ReplayStepTest, simulates_runs_in_another_world) {
+    std::string const library = test::c_world("pendulum");
+    write("small.toml", read(scratch.file("small.toml"))
+                            .replace(0, std::string{"name = \"experiment\"\ntask = \"source\""}.size(),
+                                     "name = \"experiment\"\n[world]\nlibrary = \"" + library + "\""));
+    make_run("source/001", "00000000000000aa", {library, "", ""});
+    make_knowledge();
+    make_replays(plan(), directory(), directory());
+    Replays const shown = read_replays(directory());
+    ASSERT_EQ(shown.replays.size(), 1u);
+    RunDirectory const run = open_run(directory().run("source/001"));
+    EXPECT_EQ(shown.replays[0].scene, scene_of(*run.world.world));
+    EXPECT_EQ(shown.replays[0].reward_unit, run.world.world->facts().reward_unit);
+    EXPECT_EQ(shown.replays[0].steps.size(), 400u);
+    ASSERT_EQ(shown.panels.size(), 2u);
+    EXPECT_EQ(shown.panels[0].values.size(), 20u);
+}
+
+TEST_F(ReplayStepTest, keeps_positions_rewards_and_the_scene_of_other_worlds) {
+    double const none = std::numeric_limits<double>::quiet_NaN();
+    Replay const replay{"source/001",
+                        "00000000000000aa",
+                        "cos",
+                        {2, 1, "<g id=\"pole\"/>"},
+                        {{0.5f, 0.001f, 0}, {0.625f, 0.25f, -1.5}},
+                        {}};
+    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, none}, "c"}}});
+    EXPECT_EQ(read(directory().file("replay.csv")),
+              "replay,step,x,y,reward\nsource/001,0,0.5,0.001,0\nsource/001,1,0.625,0.25,-1.5\n");
+    Replays const shown = read_replays(directory());
+    ASSERT_EQ(shown.replays.size(), 1u);
+    EXPECT_EQ(shown.replays[0].scene, replay.scene);
+    EXPECT_EQ(shown.replays[0].reward_unit, "cos");
+    EXPECT_FALSE(shown.replays[0].arena);
+    ASSERT_EQ(shown.replays[0].steps.size(), 2u);
+    EXPECT_EQ(shown.replays[0].steps[0].y, 0.001f);
+    EXPECT_EQ(shown.replays[0].steps[1].reward, -1.5);
+    ASSERT_EQ(shown.panels.size(), 1u);
+    EXPECT_EQ(shown.panels[0].values[0], -0.5);
+    EXPECT_TRUE(std::isnan(shown.panels[0].values[1]));
 }

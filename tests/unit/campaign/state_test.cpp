@@ -89,6 +89,6 @@ TEST_F(State, reads_only_whole_lines_of_progress) {
     EXPECT_EQ(last_progress(scratch.file("r")).generation, 0);
     write("r/progress.csv", "generation,best_balls,seconds\n11,2,0.5\n12,3,0.75\n13,4,0.8");
     EXPECT_EQ(last_progress(scratch.file("r")).generation, 12);
-    EXPECT_EQ(last_progress(scratch.file("r")).best_balls, 3);
+    EXPECT_EQ(last_progress(scratch.file("r")).best_reward, 3);
     EXPECT_EQ(last_progress(scratch.file("r")).seconds, 0.75);
 }

@@ -17,7 +17,8 @@ Session* session = nullptr;
 
 /// Of evaluations long enough for messages of the usual size, and for robots that touch things.
 EvaluationContext const& context() {
-    static EvaluationContext const source{load_arena("collectball", "source"), {1000, 0}, {}};
+    static EvaluationContext const source{
+        std::make_shared<CollectballWorld>(load_arena("collectball", "source")), {1000}, {}};
     return source;
 }
 
@@ -33,7 +34,8 @@ struct Served {
 std::vector<Genome> founders(int count, std::uint32_t generation) {
     std::vector<Genome> genomes;
     for (int slot = 0; slot < count; ++slot)
-        genomes.push_back(founder(Stream{5, Purpose::founder, generation, static_cast<std::uint32_t>(slot)}));
+        genomes.push_back(
+            founder(test::robot, Stream{5, Purpose::founder, generation, static_cast<std::uint32_t>(slot)}));
     return genomes;
 }
 

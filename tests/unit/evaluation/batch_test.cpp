@@ -1,31 +1,21 @@
+#include "batch_support.h"
+#include "support/robot.h"
+
+#include <lore/collectball/channels.h>
+#include <lore/collectball/collectball.h>
 #include <lore/evaluation/evaluation_queue.h>
-
-#include "support/pointers.h"
-
-#include <lore/core/isa.h>
-#include <lore/knowledge/builder.h>
 #include <lore/network/mutation.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include <memory>
 #include <set>
 
 using namespace lore;
-using lore::test::pointers_to;
+using namespace lore::test;
 
 namespace {
 
-Arena const& arena(std::string const& task) {
-    static Arena const source = load_arena("collectball", "source"), target = load_arena("collectball", "target");
-    return task == "source" ? source : target;
-}
-
-std::vector<Isa> usable_isas() {
-    std::vector<Isa> isas;
-    for (Isa isa : {Isa::baseline, Isa::v3, Isa::v4})
-        if (isa <= detected_isa()) isas.push_back(isa);
-    return isas;
+std::shared_ptr<World const> world(std::string const& task, int stop_when_still = 0) {
+    return std::make_shared<CollectballWorld>(load_arena("collectball", task), stop_when_still);
 }
 
 // A channel's number is that of its neuron.
@@ -41,7 +31,7 @@ void join(Genome& genome, int source, int target, float weight) {
 
 /// Drives ahead, turns away from what its sensors meet, collects always or where no basket is seen: gets about.
 Genome wanderer(Stream& rng) {
-    Genome genome{{}, {0.5f, 0.5f, 0.5f}};
+    Genome genome{robot, {}, {0.5f, 0.5f, 0.5f}};
     bool const right_handed = rng.coin();
     float const strength = static_cast<float>(rng.uniform(2.0, 5.0));
     genome.biases[0] = genome.biases[1] = static_cast<float>(rng.uniform(0.38, 0.48));
@@ -49,7 +39,7 @@ Genome wanderer(Stream& rng) {
     int const slow = right_handed ? right_wheel : left_wheel, fast = right_handed ? left_wheel : right_wheel;
     for (int sensor : {0, 1, 2}) join(genome, sensor, slow, -strength);
     join(genome, right_handed ? 0 : 1, fast, static_cast<float>(rng.uniform(-1.0, 3.0)));
-    for (int light : {3, 5, 7}) {   // towards balls, basket and switch
+    for (int light : {3, 5, 7}) {   // towards what shines
         float const pull = static_cast<float>(rng.uniform(-1.0, 5.0));
         join(genome, light, left_wheel, pull);
         join(genome, light + 1, right_wheel, pull);
@@ -64,7 +54,7 @@ std::vector<Genome> population(int count, std::uint32_t seed) {
     std::vector<Genome> genomes;
     for (int i = 0; i < count; ++i) {
         Stream rng{seed, Purpose::test, 7, static_cast<std::uint32_t>(i)};
-        Genome genome = i % 3 == 0 ? founder(rng) : wanderer(rng);
+        Genome genome = i % 3 == 0 ? founder(robot, rng) : wanderer(rng);
         MutationConfig mutation;
         if (i % 4 == 3) mutation.add_neuron_probability = mutation.add_edge_probability = 0.5;
         std::uint32_t const mutations = i % 3 == 0 ? rng.below(400) : rng.below(i % 4 == 3 ? 60 : 6);
@@ -74,10 +64,10 @@ std::vector<Genome> population(int count, std::uint32_t seed) {
     return genomes;
 }
 
-/// Robots that get about and bring balls home: the best of some rounds of selection among wanderers, by the fast path,
+/// Robots that get about and earn rewards: the best of some rounds of selection among wanderers, by the fast path,
 /// which is judged by what it says of them afterwards.
 std::vector<Genome> skilled(std::string const& task, int count) {
-    EvaluationContext const context{arena(task), {2000, 0}, {}};
+    EvaluationContext const context{world(task), {2000}, {}};
     std::vector<Genome> genomes;
     for (std::uint32_t i = 0; i < 600; ++i) {
         Stream rng{11, Purpose::test, 8, i};
@@ -92,7 +82,8 @@ std::vector<Genome> skilled(std::string const& task, int count) {
             for (Tile tile : d.path) tiles.insert({tile.x, tile.y});
             bool const carried =
                 std::ranges::any_of(d.channel_bits, [](std::uint16_t word) { return (word >> 8 & 1) != 0; });
-            scores.push_back({-100 * evaluations[i].balls - 30 * carried - static_cast<int>(tiles.size()), i});
+            scores.push_back(
+                {-100 * static_cast<int>(evaluations[i].reward) - 30 * carried - static_cast<int>(tiles.size()), i});
         }
         std::ranges::sort(scores);
         std::vector<Genome> next;
@@ -108,54 +99,10 @@ std::vector<Genome> skilled(std::string const& task, int count) {
     return genomes;
 }
 
-std::vector<Evaluation> evaluate_all_plainly(EvaluationContext const& context, std::vector<Genome> const& genomes) {
-    std::vector<Evaluation> evaluations;
-    for (Genome const& genome : genomes) evaluations.push_back(evaluate_plainly(context, genome));
-    return evaluations;
-}
-
-void expect_equal(Evaluation const& fast, Evaluation const& plain) {
-    EXPECT_EQ(fast.balls, plain.balls);
-    EXPECT_EQ(fast.shaping, plain.shaping);
-    EXPECT_EQ(fast.descriptors.ball_positions, plain.descriptors.ball_positions);
-    EXPECT_EQ(fast.descriptors.path, plain.descriptors.path);
-    EXPECT_EQ(fast.descriptors.entropies, plain.descriptors.entropies);
-    auto const difference = std::mismatch(fast.descriptors.channel_bits.begin(), fast.descriptors.channel_bits.end(),
-                                          plain.descriptors.channel_bits.begin(), plain.descriptors.channel_bits.end());
-    EXPECT_EQ(fast.descriptors.channel_bits.size(), plain.descriptors.channel_bits.size());
-    EXPECT_TRUE(difference.first == fast.descriptors.channel_bits.end())
-        << "first at step " << difference.first - fast.descriptors.channel_bits.begin();
-    EXPECT_TRUE(fast == plain);
-}
-
-/// With every instruction set this processor has, against evaluations done plainly.
-void expect_batches_equal(EvaluationContext const& context, std::vector<Genome> const& genomes,
-                          std::vector<Evaluation> const& plain) {
-    Isa const before = active_isa();
-    for (Isa isa : usable_isas()) {
-        use_isa(isa);
-        auto const fast = evaluate_batch(context, pointers_to(genomes));
-        ASSERT_EQ(fast.size(), plain.size());
-        for (std::size_t i = 0; i < fast.size(); ++i) {
-            SCOPED_TRACE("individual " + std::to_string(i) + ", " + std::string{name(isa)});
-            expect_equal(fast[i], plain[i]);
-            if (testing::Test::HasFailure()) break;
-        }
-        if (testing::Test::HasFailure()) break;
-    }
-    use_isa(before);
-}
-
 /// A knowledge base of what some wanderers did.
-Shaper shaper_from(std::string const& task, KnowledgeConfig const& config, int individuals,
-                   ShapingRule rule = ShapingRule::max) {
-    KnowledgeBuilder builder{config, make_exact_index(config)};
-    auto const teachers = population(individuals, 99);
-    for (std::size_t i = 0; i < teachers.size(); ++i) {
-        Trace const trace = record_episode(arena(task), compile(teachers[i]), {1000, 0});
-        builder.add_individual({windows_of(trace, config.window_length), static_cast<double>(i % 7)});
-    }
-    return Shaper{std::move(builder).finish({}), rule};
+Shaper shaper_from(std::string const& task, int individuals, ShapingRule rule = ShapingRule::max,
+                   int window_length = 20) {
+    return shaper_of(*world(task), population(individuals, 99), {window_length}, rule);
 }
 
 }   // namespace
@@ -164,7 +111,7 @@ class EvaluateBatch : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Task, EvaluateBatch, testing::Values("source", "target"));
 
 TEST_P(EvaluateBatch, equals_the_plain_evaluation_to_the_bit) {
-    EvaluationContext const context{arena(GetParam()), {4000, 0}, {}};
+    EvaluationContext const context{world(GetParam()), {4000}, {}};
     auto genomes = population(30, 1);
     for (Genome& genome : skilled(GetParam(), 30)) genomes.push_back(std::move(genome));
     auto const plain = evaluate_all_plainly(context, genomes);
@@ -183,7 +130,7 @@ TEST_P(EvaluateBatch, equals_the_plain_evaluation_to_the_bit) {
 }
 
 TEST_P(EvaluateBatch, serves_every_batch_size) {
-    EvaluationContext const context{arena(GetParam()), {700, 0}, {}};
+    EvaluationContext const context{world(GetParam()), {700}, {}};
     auto const genomes = population(40, 2);
     auto const plain = evaluate_all_plainly(context, genomes);
     Isa const before = active_isa();
@@ -223,7 +170,7 @@ TEST_P(EvaluateBatch, gives_the_same_from_a_queue_that_stutters) {
         int under_way_ = 0;
         Stream rng_{1, Purpose::test};
     };
-    EvaluationContext const context{arena(GetParam()), {.steps = 700}, std::nullopt};
+    EvaluationContext const context{world(GetParam()), {700}, std::nullopt};
     auto const genomes = population(40, 5);
     for (Isa isa : usable_isas()) {
         use_isa(isa);
@@ -235,7 +182,7 @@ TEST_P(EvaluateBatch, gives_the_same_from_a_queue_that_stutters) {
 }
 
 TEST_P(EvaluateBatch, gives_the_shaping_value_of_a_knowledge_base) {
-    EvaluationContext const context{arena(GetParam()), {2000, 0}, shaper_from(GetParam(), {}, 12)};
+    EvaluationContext const context{world(GetParam()), {2000}, shaper_from(GetParam(), 12)};
     auto const genomes = population(40, 3);
     auto const plain = evaluate_all_plainly(context, genomes);
     expect_batches_equal(context, genomes, plain);
@@ -244,10 +191,10 @@ TEST_P(EvaluateBatch, gives_the_shaping_value_of_a_knowledge_base) {
 
 TEST_P(EvaluateBatch, gives_what_every_shaping_rule_needs) {
     // Robots that come to rest show one window many times.
-    std::vector<Genome> genomes{{{}, {0.5f, 0.5f, 0.5f}}, {{}, {0.3f, 0.3f, 0.0f}}};
+    std::vector<Genome> genomes{{robot, {}, {0.5f, 0.5f, 0.5f}}, {robot, {}, {0.3f, 0.3f, 0.0f}}};
     for (Genome& genome : population(30, 8)) genomes.push_back(std::move(genome));
     for (ShapingRule const rule : {ShapingRule::distinct, ShapingRule::sum, ShapingRule::share}) {
-        EvaluationContext const context{arena(GetParam()), {1990, 0}, shaper_from(GetParam(), {}, 12, rule)};
+        EvaluationContext const context{world(GetParam()), {1990}, shaper_from(GetParam(), 12, rule)};
         auto const plain = evaluate_all_plainly(context, genomes);
         expect_batches_equal(context, genomes, plain);
         EXPECT_GT(
@@ -260,7 +207,7 @@ TEST_P(EvaluateBatch, gives_what_every_shaping_rule_needs) {
 TEST_P(EvaluateBatch, serves_windows_of_any_length) {
     auto const genomes = population(20, 4);
     for (int length : {1, 7, 33, 64, 150}) {
-        EvaluationContext const context{arena(GetParam()), {500, 0}, shaper_from(GetParam(), {length, 1.83f}, 6)};
+        EvaluationContext const context{world(GetParam()), {500}, shaper_from(GetParam(), 6, ShapingRule::max, length)};
         expect_batches_equal(context, genomes, evaluate_all_plainly(context, genomes));
         if (HasFailure()) FAIL() << "window length " << length;
     }
@@ -269,7 +216,7 @@ TEST_P(EvaluateBatch, serves_windows_of_any_length) {
 TEST_P(EvaluateBatch, stops_when_still_as_the_plain_evaluation_does) {
     auto const genomes = population(40, 5);
     for (int still : {1, 100}) {
-        EvaluationContext const context{arena(GetParam()), {1500, still}, shaper_from(GetParam(), {}, 6)};
+        EvaluationContext const context{world(GetParam(), still), {1500}, shaper_from(GetParam(), 6)};
         auto const plain = evaluate_all_plainly(context, genomes);
         expect_batches_equal(context, genomes, plain);
         EXPECT_TRUE(
@@ -279,17 +226,19 @@ TEST_P(EvaluateBatch, stops_when_still_as_the_plain_evaluation_does) {
 
 TEST_P(EvaluateBatch, finishes_robots_at_rest_with_the_same_result) {
     // Without edges the wheels are constants: standing still, and pushing against a wall without turning.
-    std::vector<Genome> genomes{
-        {{}, {0.5f, 0.5f, 0.5f}}, {{}, {0.3f, 0.3f, 0.0f}}, {{}, {0.3f, 0.3f, 1.0f}}, {{}, {0.7f, 0.7f, 1.0f}}};
+    std::vector<Genome> genomes{{robot, {}, {0.5f, 0.5f, 0.5f}},
+                                {robot, {}, {0.3f, 0.3f, 0.0f}},
+                                {robot, {}, {0.3f, 0.3f, 1.0f}},
+                                {robot, {}, {0.7f, 0.7f, 1.0f}}};
     for (Genome& genome : population(30, 6)) genomes.push_back(std::move(genome));
-    EvaluationContext const context{arena(GetParam()), {3999, 0}, shaper_from(GetParam(), {}, 6)};
+    EvaluationContext const context{world(GetParam()), {3999}, shaper_from(GetParam(), 6)};
     expect_batches_equal(context, genomes, evaluate_all_plainly(context, genomes));
 }
 
 TEST_P(EvaluateBatch, serves_episodes_of_any_length) {
     auto const genomes = population(20, 7);
     for (int steps : {1, 2, 19, 20, 39, 40, 41, 50, 51, 99}) {
-        EvaluationContext const context{arena(GetParam()), {steps, 0}, shaper_from(GetParam(), {}, 3)};
+        EvaluationContext const context{world(GetParam()), {steps}, shaper_from(GetParam(), 3)};
         expect_batches_equal(context, genomes, evaluate_all_plainly(context, genomes));
         if (HasFailure()) FAIL() << steps << " steps";
     }

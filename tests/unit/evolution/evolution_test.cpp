@@ -12,8 +12,12 @@ using namespace lore;
 
 namespace {
 
+/// Of the genomes that the synthetic evaluator judges.
+constexpr Interface interface { 12, 3 };
+
 EvolutionConfig small_config() {
     EvolutionConfig config;
+    config.interface = interface;
     config.population = 20;
     config.founders = 40;
     config.generations = 60;
@@ -49,25 +53,27 @@ TEST(FounderGenomes, are_random_where_none_are_given_whatever_the_settings_say) 
     auto const genomes = founder_genomes(config, 1, {});
     ASSERT_EQ(genomes.size(), 40u);
     for (std::uint32_t slot = 0; slot < 40; ++slot)
-        EXPECT_EQ(genomes[slot], founder(Stream{1, Purpose::founder, 0, slot}));
+        EXPECT_EQ(genomes[slot], founder(interface, Stream{1, Purpose::founder, 0, slot}));
 }
 
 TEST(FounderGenomes, take_those_given_in_turn_and_random_ones_for_the_rest) {
     EvolutionConfig config = small_config();
     config.founding = {0.25, false};
-    std::vector<Genome> const given{founder(Stream{7, Purpose::test, 0, 0}), founder(Stream{7, Purpose::test, 0, 1}),
-                                    founder(Stream{7, Purpose::test, 0, 2})};
+    std::vector<Genome> const given{founder(interface, Stream{7, Purpose::test, 0, 0}),
+                                    founder(interface, Stream{7, Purpose::test, 0, 1}),
+                                    founder(interface, Stream{7, Purpose::test, 0, 2})};
     auto const genomes = founder_genomes(config, 1, given);
     ASSERT_EQ(genomes.size(), 40u);
     for (std::uint32_t slot = 0; slot < 40; ++slot)
-        EXPECT_EQ(genomes[slot], slot < 10 ? given[slot % 3] : founder(Stream{1, Purpose::founder, 0, slot})) << slot;
+        EXPECT_EQ(genomes[slot], slot < 10 ? given[slot % 3] : founder(interface, Stream{1, Purpose::founder, 0, slot}))
+            << slot;
     config.founding.share = 0;
     EXPECT_EQ(founder_genomes(config, 1, given), founder_genomes(config, 1, {}));
 }
 
 TEST(FounderGenomes, are_mutated_once_each_by_a_stream_of_their_own) {
     EvolutionConfig const config = small_config();
-    std::vector<Genome> const given{founder(Stream{7, Purpose::test})};
+    std::vector<Genome> const given{founder(interface, Stream{7, Purpose::test})};
     auto const genomes = founder_genomes(config, 1, given);
     for (std::uint32_t slot = 0; slot < 40; ++slot) {
         Genome expected = given[0];
@@ -81,7 +87,7 @@ TEST(FounderGenomes, are_mutated_once_each_by_a_stream_of_their_own) {
 
 TEST(Evolve, starts_from_the_genomes_that_it_is_given) {
     SyntheticEvaluator evaluator;
-    std::vector<Genome> const given{founder(Stream{7, Purpose::test})};
+    std::vector<Genome> const given{founder(interface, Stream{7, Purpose::test})};
     auto const signature = [&](std::span<Genome const> origin) {
         return evolve(small_config(), 1, evaluator, {}, {}, origin).signature.text();
     };
@@ -131,6 +137,7 @@ TEST(Evolve, of_a_finished_state_changes_nothing) {
 
 TEST(Evolve, keeps_200_of_400_founders_and_then_evaluates_only_children) {
     EvolutionConfig config;
+    config.interface = interface;
     config.generations = 2;
     SyntheticEvaluator evaluator;
     std::vector<std::size_t> born;
@@ -155,7 +162,7 @@ TEST(Evolve, draws_founders_and_children_from_streams_of_their_own) {
             EXPECT_EQ(birth.id, (IndividualId{generation, slot}));
             if (generation == 0) {
                 EXPECT_EQ(birth.parent, nullptr);
-                EXPECT_EQ(birth.genome, founder(Stream{9, Purpose::founder, 0, slot}));
+                EXPECT_EQ(birth.genome, founder(interface, Stream{9, Purpose::founder, 0, slot}));
             } else {
                 Genome child = birth.parent->genome;
                 Stream rng{9, Purpose::mutation, generation, slot};
@@ -204,9 +211,7 @@ TEST(Evolve, judges_diversity_in_the_joint_pool_of_its_generation) {
                 sum += distance(report.distance, *child.descriptors, *other.descriptors);
             EXPECT_EQ(child.diversity, sum / static_cast<double>(pool.size()));
             EXPECT_EQ(child.birth->diversity, child.diversity);
-            EXPECT_EQ(
-                child.objectives,
-                (Objectives{{static_cast<double>(child.birth->balls), child.diversity, child.birth->shaping}, 3}));
+            EXPECT_EQ(child.objectives, (Objectives{{child.birth->reward, child.diversity, child.birth->shaping}, 3}));
         }
         parents = report.state->population.members;
         return true;
@@ -218,21 +223,21 @@ TEST(Evolve, uses_the_objectives_of_the_treatment) {
     EvolutionConfig config = small_config();
     config.generations = 1;
     config.use_diversity = false;
-    EvolutionState const balls_alone = evolve(config, 6, evaluator, {}, {});
-    EXPECT_EQ(balls_alone.population.members[0].objectives.count, 1);
-    EXPECT_GT(balls_alone.population.members[0].diversity, 0);
+    EvolutionState const reward_alone = evolve(config, 6, evaluator, {}, {});
+    EXPECT_EQ(reward_alone.population.members[0].objectives.count, 1);
+    EXPECT_GT(reward_alone.population.members[0].diversity, 0);
 }
 
 TEST(Evolve, climbs) {
     SyntheticEvaluator evaluator;
     EvolutionConfig config = small_config();
     config.generations = 200;
-    int at_start = -1;
+    double at_start = -1;
     EvolutionState const state = evolve(config, 1, evaluator, {}, [&](GenerationReport const& report) {
-        if (report.generation == 0) at_start = best_of_run(report.state->population).birth->balls;
+        if (report.generation == 0) at_start = best_of_run(report.state->population).birth->reward;
         return true;
     });
-    EXPECT_GT(best_of_run(state.population).birth->balls, at_start + 3);
+    EXPECT_GT(best_of_run(state.population).birth->reward, at_start + 3);
 }
 
 TEST(Evolve, keeps_the_population_moving_when_all_objectives_tie) {
@@ -261,11 +266,11 @@ TEST(Evolve, remembers_no_more_than_the_living_tree) {
     EXPECT_LT(alive, 700);   // of 6040
 }
 
-TEST(BestOfRun, has_most_balls_then_the_earliest_birth_then_the_lowest_slot) {
+TEST(BestOfRun, has_most_reward_then_the_earliest_birth_then_the_lowest_slot) {
     Population population;
-    for (auto const& [balls, generation, slot] : {std::array{3, 1, 1}, {5, 9, 0}, {5, 4, 8}, {5, 4, 7}, {4, 0, 0}}) {
+    for (auto const& [reward, generation, slot] : {std::array{3, 1, 1}, {5, 9, 0}, {5, 4, 8}, {5, 4, 7}, {4, 0, 0}}) {
         auto birth = std::make_shared<Birth>();
-        birth->balls = balls;
+        birth->reward = reward;
         birth->id = {static_cast<std::uint32_t>(generation), static_cast<std::uint32_t>(slot)};
         Individual member;
         member.birth = std::move(birth);
@@ -277,6 +282,7 @@ TEST(BestOfRun, has_most_balls_then_the_earliest_birth_then_the_lowest_slot) {
 TEST(Evolution, prunes_newborns_where_asked_to) {
     SyntheticEvaluator evaluator;
     EvolutionConfig config;
+    config.interface = interface;
     config.population = 20;
     config.founders = 40;
     config.generations = 40;
@@ -292,4 +298,53 @@ TEST(Evolution, prunes_newborns_where_asked_to) {
     }
     EXPECT_TRUE(useless[0]);
     EXPECT_FALSE(useless[1]);
+}
+
+TEST(Evolve, gives_founders_and_children_the_interface_of_the_configuration) {
+    SyntheticEvaluator evaluator;
+    EvolutionConfig config = small_config();
+    config.interface = {5, 2};
+    config.generations = 4;
+    evolve(config, 1, evaluator, {}, [&](GenerationReport const& report) {
+        for (Individual const& child : report.born) {
+            EXPECT_EQ(child.birth->genome.interface, config.interface);
+            EXPECT_EQ(why_invalid(child.birth->genome), "");
+        }
+        return true;
+    });
+}
+
+TEST(EvolutionState, signs_whole_rewards_as_integers_and_others_by_their_bits) {
+    /// All are equal, with this reward.
+    class Rewards : public ConstantEvaluator {
+    public:
+        explicit Rewards(double reward) : reward_(reward) {}
+        std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes,
+                                         CompletionListener* listener) override {
+            auto evaluations = ConstantEvaluator::evaluate(genomes, listener);
+            for (Evaluation& evaluation : evaluations) evaluation.reward = reward_;
+            return evaluations;
+        }
+
+    private:
+        double reward_;
+    };
+    struct Case {
+        double reward;
+        std::uint64_t word;
+    };
+    for (auto const& [reward, word] : {Case{3, 3}, Case{0, 0}, Case{-0.0, 0}, Case{-2, ~std::uint64_t{1}},
+                                       Case{0.5, 0x3fe0000000000000u}, Case{0x1p63, 0x43e0000000000000u}}) {
+        Rewards evaluator{reward};
+        EvolutionConfig config = small_config();
+        config.generations = 0;
+        EvolutionState const state = evolve(config, 1, evaluator, {}, {});
+        Signature expected;
+        for (Individual const& member : state.population.members) {
+            expected.add(std::uint64_t{member.id().slot});
+            expected.add(word);
+            for (int k = 0; k < member.objectives.count; ++k) expected.add(member.objectives.value[k]);
+        }
+        EXPECT_EQ(state.signature.value(), expected.value()) << reward;
+    }
 }

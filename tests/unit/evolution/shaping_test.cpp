@@ -19,6 +19,7 @@ Individual showing(std::vector<std::uint32_t> features) {
 
 EvolutionConfig shaped(ShapingUse use) {
     EvolutionConfig config;
+    config.interface = {12, 3};
     config.population = 20;
     config.founders = 40;
     config.generations = 30;

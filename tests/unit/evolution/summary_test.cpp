@@ -6,20 +6,22 @@ using namespace lore;
 
 namespace {
 
-Individual member(int balls, double diversity, double shaping, int edges, int hidden) {
+Individual member(double reward, double diversity, double shaping, int edges, int hidden) {
     auto birth = std::make_shared<Birth>();
-    birth->balls = balls;
+    birth->reward = reward;
     birth->shaping = shaping;
+    birth->genome.interface = {12, 3};
     birth->genome.edges.resize(static_cast<std::size_t>(edges));
-    birth->genome.biases.resize(static_cast<std::size_t>(effector_count + hidden));
+    birth->genome.biases.resize(static_cast<std::size_t>(3 + hidden));
     Individual individual;
     individual.birth = std::move(birth);
     auto descriptors = std::make_shared<Descriptors>();
-    descriptors->channel_bits.resize(4000);
+    descriptors->channel_bits.resize(8000);
+    descriptors->entropies.resize(17);   // two words a step
     individual.descriptors = std::move(descriptors);
     individual.diversity = diversity;
     individual.shaping = shaping;
-    individual.objectives = {{static_cast<double>(balls), diversity, shaping}, 3};
+    individual.objectives = {{reward, diversity, shaping}, 3};
     return individual;
 }
 
@@ -28,7 +30,7 @@ Individual member(int balls, double diversity, double shaping, int edges, int hi
 TEST(Summarize, gives_the_figures_of_a_hand_worked_generation) {
     EvolutionState state;
     state.population.members = {member(2, 0.5, 3.0, 36, 0), member(2, 0.5, 3.0, 40, 2), member(0, 0.25, 3.0, 38, 0),
-                                member(4, 0.75, 1.5, 30, 1)};
+                                member(4.5, 0.75, 1.5, 30, 1)};
     std::vector<Individual> const born{member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0), member(0, 0, 0, 1, 0)};
     GenerationReport report;
     report.generation = 17;
@@ -40,8 +42,8 @@ TEST(Summarize, gives_the_figures_of_a_hand_worked_generation) {
     EXPECT_EQ(summary.generation, 17);
     EXPECT_EQ(summary.distance, DistanceKind::entropy);
     EXPECT_EQ(summary.fronts, 5);
-    EXPECT_EQ(summary.best_balls, 4);
-    EXPECT_EQ(summary.mean_balls, 2.0);
+    EXPECT_EQ(summary.best_reward, 4.5);
+    EXPECT_EQ(summary.mean_reward, 2.125);
     EXPECT_EQ(summary.mean_diversity, 0.5);
     EXPECT_EQ(summary.best_shaping, 3.0);
     EXPECT_EQ(summary.mean_connections, 36.0);
@@ -69,4 +71,13 @@ TEST(Summarize, has_no_share_at_the_best_shaping_where_nobody_matched_a_feature)
     EXPECT_EQ(summarize(report).best_shaping, no_feature_value);
     EXPECT_EQ(summarize(report).shaping_at_max, 0.0);
     EXPECT_EQ(summarize(report).tied, 2);
+}
+
+TEST(Summarize, has_the_best_reward_also_where_all_are_negative) {
+    EvolutionState state;
+    state.population.members = {member(-4, 0, 0, 36, 0), member(-2.5, 0, 0, 36, 0)};
+    GenerationReport report;
+    report.state = &state;
+    EXPECT_EQ(summarize(report).best_reward, -2.5);
+    EXPECT_EQ(summarize(report).mean_reward, -3.25);
 }

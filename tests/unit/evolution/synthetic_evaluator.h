@@ -12,7 +12,7 @@
 
 namespace lore {
 
-/// Judges a genome by its genes alone, in no time: balls for some high biases, behavior from the weights. Works
+/// Judges a genome by its genes alone, in no time: reward for some high biases, behavior from the weights. Works
 /// through the batch in whatever order it is told to, as ranks would; unless that is the order of the request, it
 /// notifies of all but the last quarter. Measures, too, in rows whose order depends on that order.
 class SyntheticEvaluator : public Evaluator, public DistanceMeasurer {
@@ -54,17 +54,18 @@ public:
 private:
     static Evaluation judge(Genome const& genome) {
         Evaluation e;
-        for (float const bias : genome.biases) e.balls += bias > 0.8f;
+        for (float const bias : genome.biases) e.reward += bias > 0.8f;
         float const first = genome.edges.empty() ? 0.0f : genome.edges[0].weight;
         float const last = genome.edges.empty() ? 0.0f : genome.edges.back().weight;
         e.shaping = std::floor(first * 8) / 8;
-        e.descriptors.ball_positions = {{first, last}};
+        e.descriptors.outcome = {first, last};
         for (Edge const& edge : genome.edges) {
             e.descriptors.channel_bits.push_back(
                 static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(edge.weight) >> 8 & 0x7fff));
             e.descriptors.path.push_back(
                 {static_cast<std::uint8_t>(edge.weight * 11), static_cast<std::uint8_t>(edge.source % 8)});
         }
+        e.descriptors.entropies.resize(15);
         e.descriptors.entropies[0] = first;
         e.descriptors.entropies[14] = last;
         return e;
@@ -81,7 +82,8 @@ class ConstantEvaluator : public Evaluator {
 public:
     std::vector<Evaluation> evaluate(std::span<Genome const* const> genomes, CompletionListener* = nullptr) override {
         Evaluation e;
-        e.descriptors.ball_positions = {{0, 0}};
+        e.descriptors.outcome = {0, 0};
+        e.descriptors.entropies.resize(15);
         return std::vector<Evaluation>(genomes.size(), e);
     }
 };

@@ -1,4 +1,4 @@
-#include <lore/experiment/config.h>
+#include <lore/experiment/run_world.h>
 
 #include "support/complaint.h"
 #include "support/scratch.h"
@@ -157,7 +157,7 @@ TEST(Config, files_of_the_project_are_the_paper_s_runs) {
         expected.name = expected.task = task;
         expected.arena = config.arena;
         EXPECT_TRUE(differing_settings(config, expected).empty());
-        EXPECT_EQ(load_arena(config.arena, config.task).task.name, task);
+        EXPECT_EQ(open_run_world(config, arena_text_of(config)).world->facts().task, task);
     }
 }
 
@@ -191,4 +191,25 @@ TEST(Config, has_the_predecessors_decisions_as_settings_that_affect_results) {
          {"evolution.ties=insertion", "evolution.fronts=sweep", "evolution.ends_among_equals=true",
           "evolution.prune=true", "knowledge.squared_threshold=1.83"})
         EXPECT_NE(result_settings(parse_config("", "a.toml", "", {setting})), "") << setting;
+}
+
+TEST(Config, names_a_world_with_settings_that_come_back_and_can_be_overridden) {
+    std::string const text = "[world]\nlibrary = \"pendulum\"\n[world.settings]\ntask = \"short_pole\"\nlength = 1.5\n";
+    ExperimentConfig const config = parse_config(text, "a.toml", "/jobs");
+    EXPECT_TRUE(config.has_world());
+    EXPECT_EQ(config.world.name, "pendulum");
+    EXPECT_EQ(config.world.folder, "/jobs");
+    EXPECT_EQ(config.world.settings, "length = 1.5\ntask = \"short_pole\"\n");
+    ExperimentConfig const back = parse(to_toml(config));
+    EXPECT_TRUE(differing_settings(back, config).empty()) << lore::text(differing_settings(back, config));
+    ExperimentConfig const longer = parse(text, {"world.settings.length=2", "world.settings.mass=0.5"});
+    EXPECT_EQ(longer.world.settings, "length = 2\nmass = 0.5\ntask = \"short_pole\"\n");
+    EXPECT_EQ(differing_result_settings(longer, config).size(), 1u) << "what the library is told affects results";
+    EXPECT_FALSE(parse("").has_world());
+}
+
+TEST(Config, refuses_settings_of_collectball_beside_another_world) {
+    ExperimentConfig config = parse("task = \"target\"\n[world]\nlibrary = \"./no.so\"\n");
+    EXPECT_NE(test::complaint_of<UsageError>([&] { open_run_world(config, ""); }).find("task is set"),
+              std::string::npos);
 }

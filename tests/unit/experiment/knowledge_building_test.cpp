@@ -19,8 +19,15 @@ void expect_equal(KnowledgeBase const& a, KnowledgeBase const& b) {
     for (int i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a.value(i), b.value(i));
         EXPECT_EQ(a.count(i), b.count(i));
-        EXPECT_EQ(squared_distance(a.window(i), b.window(i)), 0.0f);
+        EXPECT_EQ(squared_distance(a.config().channels, a.window(i), b.window(i)), 0.0f);
     }
+}
+
+/// What a base of the run's windows has.
+KnowledgeConfig config_of(RunDirectory const& run) {
+    KnowledgeConfig config = run.config.knowledge;
+    config.channels = run.world.record().channels;
+    return config;
 }
 
 BuildingObserver const nobody = [](std::int64_t, std::int64_t) {};
@@ -32,11 +39,11 @@ TEST(KnowledgeOfLineage, equals_algorithm_1_over_the_ancestors_simulated_one_by_
     test::write_small_run(scratch.path());
     RunDirectory const run = open_run(scratch.path());
     auto const best = run.individual("best");
-    KnowledgeConfig const config = run.config.knowledge;
+    KnowledgeConfig const config = config_of(run);
     KnowledgeBuilder plain{config, make_scan_index(config)};
     for (Birth const* ancestor : lineage_of(*best)) {
-        Trace const trace = record_episode(run.arena, compile(ancestor->genome), run.config.episode);
-        plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(ancestor->balls)});
+        Trace const trace = record_episode(*run.world.world, compile(ancestor->genome), run.config.episode);
+        plain.add_individual({windows_of(trace, config.window_length), ancestor->reward});
     }
     std::int64_t last = 0;
     Provenance provenance;
@@ -58,34 +65,33 @@ TEST(KnowledgeOfLineage, finds_the_deliveries_that_the_plain_evaluation_makes) {
     Scratch const scratch;
     test::write_small_run(scratch.path());
     RunDirectory run = open_run(scratch.path());
-    std::string text{arena_text(run.config.arena)};
+    std::string text = arena_text_of(run.config);
     auto const replace = [&](std::string const& from, std::string const& to) {
         ASSERT_NE(text.find(from), std::string::npos) << from;
         text.replace(text.find(from), from.size(), to);
     };
     replace("reach = 20 ", "reach = 900 ");
     replace("radius = 33.75", "radius = 900");
-    write_file_atomically(scratch.file("arena.toml"), std::string_view{text});
-    run.arena = load_arena(scratch.file("arena.toml"), "source");
+    run.world = open_run_world(run.config, text);
 
-    KnowledgeConfig const config = run.config.knowledge;
-    KnowledgeBuilder plain{config, make_scan_index(config), {default_gammas(), true, 0}};
+    KnowledgeConfig const config = config_of(run);
+    KnowledgeBuilder plain{config, make_scan_index(config), {default_gammas(), true, {}}};
     std::shared_ptr<Birth> youngest;
     for (std::uint32_t i = 0; i < 40; ++i) {
         auto birth = std::make_shared<Birth>();
         birth->id = {i, 0};
         birth->parent = youngest;
-        birth->genome = founder(Stream{4, Purpose::founder, 0, i});
-        birth->balls = record_episode(run.arena, compile(birth->genome), run.config.episode).final_world.collected;
+        birth->genome = founder(run.world.record().interface(), Stream{4, Purpose::founder, 0, i});
+        birth->reward = record_episode(*run.world.world, compile(birth->genome), run.config.episode).reward;
         youngest = birth;
     }
     std::size_t delivered = 0;
     for (Birth const* ancestor : lineage_of(*youngest)) {
-        Trace const trace = record_episode(run.arena, compile(ancestor->genome), run.config.episode);
-        EXPECT_EQ(trace.deliveries.size(), static_cast<std::size_t>(ancestor->balls));
-        delivered += trace.deliveries.size();
-        plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(ancestor->balls),
-                              trace.deliveries, ancestor->id.generation});
+        Trace const trace = record_episode(*run.world.world, compile(ancestor->genome), run.config.episode);
+        EXPECT_EQ(trace.rewards.size(), static_cast<std::size_t>(ancestor->reward));
+        delivered += trace.rewards.size();
+        plain.add_individual(
+            {windows_of(trace, config.window_length), ancestor->reward, trace.rewards, ancestor->id.generation});
     }
     EXPECT_GT(delivered, 5u);   // 11 with these genomes
     KnowledgeBase const base = knowledge_of_lineage(run, *youngest, config, IndexKind::exact, {}, nobody);
@@ -101,7 +107,7 @@ TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_o
     Scratch const scratch;
     test::write_small_run(scratch.path());
     RunDirectory const run = open_run(scratch.path());
-    KnowledgeConfig const config = run.config.knowledge;
+    KnowledgeConfig const config = config_of(run);
     EXPECT_EQ(archived_individuals(run), 16u + 6 * 8);
     for (int const every : {1, 5}) {
         KnowledgeBuilder plain{config, make_scan_index(config)};
@@ -109,8 +115,8 @@ TEST(KnowledgeOfAll, equals_algorithm_1_over_everybody_or_every_fifth_in_order_o
         for_each_individual(
             run.file(run_file::all_individuals), run.lineage.generation, [&](ArchivedIndividual const& individual) {
                 if (number++ % every != 0) return;
-                Trace const trace = record_episode(run.arena, compile(individual.genome), run.config.episode);
-                plain.add_individual({windows_of(trace, config.window_length), static_cast<double>(individual.balls)});
+                Trace const trace = record_episode(*run.world.world, compile(individual.genome), run.config.episode);
+                plain.add_individual({windows_of(trace, config.window_length), individual.reward});
             });
         EXPECT_EQ(plain.individuals(), every == 1 ? 64u : 13u);
         expect_equal(knowledge_of_all(run, every, config, IndexKind::exact, {}, nobody), std::move(plain).finish({}));
@@ -132,7 +138,7 @@ TEST(KnowledgeOfLineage, refuses_an_individual_whose_evaluation_does_not_repeat)
     Birth changed;
     changed.id = {3, 4};
     changed.genome = run.individual("best")->genome;
-    changed.balls = 5;
+    changed.reward = 5;
     try {
         knowledge_of_lineage(run, changed, {}, IndexKind::exact, {}, nobody);
         FAIL();

@@ -5,20 +5,20 @@
     tests/unit/extension/extend.py --files
 
 Writes the changed files below OUT_DIR; --files lists them. The sensor is a compass, continuous; the distance compares
-how many balls were delivered, which Descriptors does not hold.
+the rewards, which Descriptors does not hold.
 """
 import pathlib
 import sys
 
 # file: pairs of a place that occurs once, and what stands there afterwards
 SENSOR = {
-    "include/lore/core/channels.h": [
+    "include/lore/collectball/channels.h": [
         ("    carrying,\n", "    carrying,\n    compass,\n"),
         ('    {Channel::carrying, "carrying", ChannelKind::binary},\n',
          '    {Channel::carrying, "carrying", ChannelKind::binary},\n'
          '    {Channel::compass, "compass", ChannelKind::continuous},\n'),
     ],
-    "include/lore/arena/mechanics.h": [
+    "include/lore/collectball/mechanics.h": [
         ("// ---- contact -",
          "/// The heading as a number in [0, 1].\n"
          "template <class F>\n"
@@ -27,10 +27,10 @@ SENSOR = {
          "}\n\n"
          "// ---- contact -"),
     ],
-    "src/arena/world.cpp": [
+    "src/collectball/world.cpp": [
         ("on(world.carrying())});", "on(world.carrying()),\n         mechanics::compass_value(robot.pose.theta)});"),
     ],
-    "src/episode/lane_kernel.cpp": [
+    "src/collectball/lane_kernel.cpp": [
         ("range(distances[2])};",
          "range(distances[2]),\n"
          "                            mechanics::compass_value(lanes::load<F>(work.theta + at))};"),
@@ -39,22 +39,22 @@ SENSOR = {
 DISTANCE = {
     "include/lore/behavior/descriptors.h": [
         ("    friend bool operator==(Descriptors const&",
-         "    std::int32_t delivered = 0;   ///< delivery: balls in the basket\n"
+         "    double delivered = 0;   ///< delivery: Trace::reward\n"
          "    friend bool operator==(Descriptors const&"),
-        ("[ball_positions, channel_bits, path, entropies]", "[ball_positions, channel_bits, path, entropies, delivered]"),
+        ("[outcome, channel_bits, path, entropies]", "[outcome, channel_bits, path, entropies, delivered]"),
         ("    visit(entropies);\n", "    visit(entropies);\n    visit(delivered);\n"),
     ],
     "src/behavior/descriptors.cpp": [
-        ("    d.channel_bits = trace.channel_bits;\n", "    d.channel_bits = trace.channel_bits;\n    d.delivered = trace.final_world.collected;\n"),
+        ("    d.channel_bits = trace.channel_bits;\n", "    d.channel_bits = trace.channel_bits;\n    d.delivered = trace.reward;\n"),
     ],
     "src/evaluation/batch.cpp": [
-        ("        d.path = now.path;\n", "        d.path = now.path;\n        d.delivered = world.collected;\n"),
+        ("        d.path = now.path;\n", "        d.path = now.path;\n        d.delivered = how.reward;\n"),
     ],
     "include/lore/behavior/distances.h": [
         ("trajectory, entropy };", "trajectory, entropy, delivery };"),
         ("static_cast<int>(DistanceKind::entropy) + 1", "static_cast<int>(DistanceKind::delivery) + 1"),
         ("double distance(DistanceKind,",
-         "/// Difference of the balls delivered.\n"
+         "/// Difference of the rewards.\n"
          "double delivery_distance(Descriptors const&, Descriptors const&);\n\n"
          "double distance(DistanceKind,"),
     ],

@@ -1,13 +1,13 @@
 // Of a copy of Lore with a compass as the 13th sensor and the fifth distance, `delivery` (extend.py).
-#include "arena/arena_support.h"
+#include "collectball/arena_support.h"
 #include "behavior/random_descriptors.h"
 #include "support/pointers.h"
 
 #include <lore/archive/messages.h>
+#include <lore/collectball/replay.h>
 #include <lore/core/error.h>
 #include <lore/core/isa.h>
 #include <lore/evaluation/evaluator.h>
-#include <lore/knowledge/builder.h>
 #include <lore/network/mutation.h>
 
 #include <gtest/gtest.h>
@@ -32,9 +32,10 @@ static_assert(distance_kinds == 5);
 /// The copy has baseline kernels alone.
 [[maybe_unused]] bool const only_baseline = (use_isa(Isa::baseline), true);
 
-Arena const& arena() {
-    static Arena const source = parse_arena(
-        tests::replaced(arena_text("collectball"), "\"carrying\"]", "\"carrying\", \"compass\"]"), "compass", "source");
+CollectballWorld const& world() {
+    static CollectballWorld const source{
+        parse_arena(tests::replaced(arena_text("collectball"), "\"carrying\"]", "\"carrying\", \"compass\"]"),
+                    "compass", "source")};
     return source;
 }
 
@@ -42,23 +43,13 @@ std::vector<Genome> population(int count) {
     std::vector<Genome> genomes;
     for (int i = 0; i < count; ++i) {
         Stream rng{1, Purpose::test, 0, static_cast<std::uint32_t>(i)};
-        Genome genome = founder(rng);
+        Genome genome = founder(Interface{collectball_channels()}, rng);
         MutationConfig often;
         often.add_neuron_probability = often.add_edge_probability = 0.5;
         for (int k = 0; k < 3 * i; ++k) mutate(genome, often, {}, rng);
         genomes.push_back(std::move(genome));
     }
     return genomes;
-}
-
-std::vector<Trace> traces_of(std::vector<Genome> const& genomes, int steps) {
-    std::vector<Trace> traces;
-    for (Genome const& genome : genomes) traces.push_back(record_episode(arena(), compile(genome), {steps, 0}));
-    return traces;
-}
-
-std::vector<Evaluation> evaluations_of(EvaluationContext const& context, std::vector<Genome> const& genomes) {
-    return evaluate_batch(context, pointers_to(genomes));
 }
 
 }   // namespace
@@ -70,75 +61,30 @@ TEST(OneMoreSensor, is_asked_for_in_the_arenas_file) {
     } catch (Error const& error) {
         EXPECT_NE(std::string{error.what()}.find("'compass' is missing"), std::string::npos) << error.what();
     }
-    EXPECT_NO_THROW(arena());
+    EXPECT_NO_THROW(world());
 }
 
 TEST(OneMoreSensor, is_connected_in_a_founder_and_recorded_in_its_trace) {
     Genome const genome = population(1)[0];
     EXPECT_EQ(genome.edges.size(), 13u * 3u);
-    Trace const trace = traces_of({genome}, 50)[0];
+    auto const rows = record_steps(world(), compile(genome), {50});
+    Trace const trace = record_episode(world(), compile(genome), {50});
     ASSERT_EQ(trace.values.size(), 50u * 7u);
     auto const place = std::ranges::find(continuous_channels, static_cast<int>(Channel::compass));
     auto const compass = static_cast<std::size_t>(place - continuous_channels.begin());
     for (std::size_t step = 0; step < 50; ++step) {
         float const value = trace.values[step * 7 + compass];
-        EXPECT_EQ(value, trace.poses[step].theta / 6.28318530717958f + 0.5f);
+        EXPECT_EQ(value, rows[step].pose.theta / 6.28318530717958f + 0.5f);
         EXPECT_EQ(trace.channel_bits[step] >> (binary_count + compass) & 1, value > 0.5f);
     }
 }
 
 TEST(OneMoreSensor, reads_the_same_in_lanes_and_plainly_to_the_bit) {
+    EvaluationContext const context{std::make_shared<CollectballWorld>(world()), {1000}, std::nullopt};
     auto const genomes = population(20);
-    KnowledgeBuilder builder{{}, make_exact_index({})};
-    auto const traces = traces_of(genomes, 600);
-    for (std::size_t i = 0; i < traces.size(); ++i)
-        builder.add_individual({windows_of(traces[i], KnowledgeConfig{}.window_length), static_cast<double>(i % 7)});
-    EvaluationContext const context{arena(), {1000, 0}, Shaper{std::move(builder).finish({})}};
-    auto const fast = evaluations_of(context, genomes);
-    int shaped = 0;
-    for (std::size_t i = 0; i < genomes.size(); ++i) {
+    auto const fast = evaluate_batch(context, pointers_to(genomes));
+    for (std::size_t i = 0; i < genomes.size(); ++i)
         EXPECT_TRUE(fast[i] == evaluate_plainly(context, genomes[i])) << "individual " << i;
-        shaped += fast[i].shaping > 0;
-    }
-    EXPECT_GT(shaped, 10);
-}
-
-TEST(OneMoreSensor, leaves_the_exact_index_equal_to_the_scan) {
-    auto const genomes = population(16);
-    auto const known = traces_of({genomes.begin(), genomes.begin() + 8}, 500), asked = traces_of(genomes, 500);
-    for (KnowledgeConfig const& config :
-         {KnowledgeConfig{7, 0.5f}, KnowledgeConfig{20, 1.83f}, KnowledgeConfig{20, 6}}) {
-        auto const scan = make_scan_index(config), exact = make_exact_index(config);
-        for (Trace const& trace : known)
-            for (Window const& window : windows_of(trace, config.window_length)) {
-                scan->add(window);
-                exact->add(window);
-            }
-        auto const scan_search = scan->search(), exact_search = exact->search();
-        for (bool const final : {false, true}) {
-            if (final) exact->set_values(std::vector<double>(static_cast<std::size_t>(exact->size()), 1.0));
-            for (Trace const& trace : asked)
-                for (Window const& window : windows_of(trace, config.window_length))
-                    ASSERT_EQ(exact_search->match(window), scan_search->match(window));
-        }
-    }
-}
-
-TEST(OneMoreSensor, counts_in_the_distance_of_windows_up_to_the_threshold) {
-    // Windows that differ in one continuous channel only, by just less and just more than a match allows.
-    KnowledgeConfig const config{20, 1.83f};
-    std::vector<std::uint16_t> const bits(20, 0);
-    for (int channel = 0; channel < continuous_count; ++channel) {
-        auto const exact = make_exact_index(config);
-        std::vector<float> values(20u * continuous_count, 0.25f);
-        exact->add({bits, values});
-        auto const search = exact->search();
-        for (float const difference : {0.409f, 0.410f}) {   // 20 * 0.409^2 < 1.83^2 < 20 * 0.410^2
-            for (std::size_t step = 0; step < 20; ++step)
-                values[step * continuous_count + static_cast<std::size_t>(channel)] = 0.25f + difference;
-            EXPECT_EQ(search->match({bits, values}).found(), difference < 0.4095f) << channel << ' ' << difference;
-        }
-    }
 }
 
 TEST(OneMoreDistance, is_known_by_its_name) {

@@ -11,7 +11,7 @@ using lore::test::trace_of;
 
 namespace {
 
-constexpr KnowledgeConfig two_steps{2, 1.83f};
+KnowledgeConfig const two_steps = test::config_of(2);
 
 /// Windows of two steps; A, B, C and D are more than the threshold apart (5 bits or more), a resembles A (distance 1).
 constexpr test::Step A0{0x000, 0.5f}, A1{0x000, 0.5f}, a0{0x001, 0.5f}, B0{0x01F, 0.5f}, C0{0x1E0, 0.5f},
@@ -21,7 +21,7 @@ constexpr test::Step A0{0x000, 0.5f}, A1{0x000, 0.5f}, a0{0x001, 0.5f}, B0{0x01F
 
 TEST(KnowledgeBuilder, follows_algorithm_1_on_a_lineage_of_three) {
     KnowledgeBuilder builder{two_steps, make_scan_index(two_steps)};
-    // The best-of-run (7 balls) shows A, B, A; its parent (4 balls) shows a, C; the founder (0 balls) shows D, B.
+    // The best-of-run (reward 7) shows A, B, A; its parent (4) shows a, C; the founder (0) shows D, B.
     Trace const best = trace_of({A0, A1, B0, A1, A0, A1});
     Trace const parent = trace_of({a0, A1, C0, A1});
     Trace const founder = trace_of({D0, A1, B0, A1});
@@ -85,7 +85,7 @@ TEST(KnowledgeBuilder, keeps_only_channels_of_the_words) {
 }
 
 TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_number_of_threads) {
-    KnowledgeConfig const config;
+    KnowledgeConfig const config = test::config_of();
     Stream rng{51, Purpose::test};
     std::vector<Trace> traces;
     for (int i = 0; i < 24; ++i)
@@ -112,7 +112,7 @@ TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_numb
             for (int i = 0; i < base.size(); ++i) {
                 ASSERT_EQ(base.value(i), expected.value(i));
                 ASSERT_EQ(base.count(i), expected.count(i));
-                ASSERT_EQ(squared_distance(base.window(i), expected.window(i)), 0.0f);
+                ASSERT_EQ(squared_distance(config.channels, base.window(i), expected.window(i)), 0.0f);
             }
         }
 }

@@ -19,7 +19,7 @@ KnowledgeBase base_of(Genome const& controller, int features, int length, std::v
     Stream rng{5, Purpose::test};
     KnowledgeArrays arrays;
     for (int step = 0; step < features * length; ++step) {
-        auto const bits = static_cast<std::uint16_t>(rng.bits() & window_bits_mask);
+        auto const bits = static_cast<std::uint16_t>(rng.bits() & test::window_bits_mask);
         std::array<float, sensor_count> sensors{};
         for (int k = 0; k < 3; ++k) sensors[static_cast<std::size_t>(k)] = static_cast<float>(rng.uniform());
         for (int bit = 0; bit < binary_count; ++bit)
@@ -35,11 +35,11 @@ KnowledgeBase base_of(Genome const& controller, int features, int length, std::v
     arrays.reward_sums = values;
     arrays.counts.assign(values.size(), 1);
     arrays.values = std::move(values);
-    return KnowledgeBase{{length, 1.83f}, {}, std::move(arrays)};
+    return KnowledgeBase{test::config_of(length), {}, std::move(arrays)};
 }
 
 Genome mild_controller() {
-    Genome controller = founder(Stream{9, Purpose::test});
+    Genome controller = founder(Interface{collectball_channels()}, Stream{9, Purpose::test});
     for (Edge& edge : controller.edges) edge.weight = 0.4f + 0.2f * edge.weight;   // -1 .. 1
     for (float& bias : controller.biases) bias = 0.48f + 0.04f * bias;             // -1 .. 1 inside the activation
     return controller;
@@ -53,7 +53,7 @@ KnowledgeBase hand_made(std::vector<double> values) {
         trace.values.insert(trace.values.end(), {0, 0, 0, i == 0 ? 0.0f : 1.0f, 0.5f, 1.0f});
     }
     std::vector<std::uint32_t> const counts(values.size(), 1);
-    return KnowledgeBase{{1, 1.83f}, {}, {trace.channel_bits, trace.values, values, values, counts}};
+    return KnowledgeBase{test::config_of(1), {}, {trace.channel_bits, trace.values, values, values, counts}};
 }
 
 std::string complaint(KnowledgeBase const& base, CloneConfig const& config) {
@@ -83,7 +83,7 @@ TEST(Clone, recovers_the_controller_whose_windows_the_base_holds) {
 }
 
 TEST(Clone, of_two_windows_turns_where_the_one_does_and_goes_straight_where_the_other_does) {
-    // The left wheel stands in the dark and runs when a ball is seen to the right; the right wheel is always at 0.5,
+    // The left wheel stands in the dark and runs when the first binary sensor is on; the right wheel is always at 0.5,
     // the grip always shut. Both windows are drawn, so that the best constant for the left wheel is about 0.5.
     Clones const clones = clone(hand_made({2, 2}), {1, 1000, 0, 1});
     Network const network = compile(clones.genomes[0]);
@@ -118,7 +118,8 @@ TEST(Clone, draws_windows_in_proportion_to_their_values_less_the_smallest_if_tha
 }
 
 TEST(Clone, gives_valid_genomes_that_depend_on_the_seed_and_the_founder_alone) {
-    KnowledgeBase const base = base_of(founder(Stream{8, Purpose::test}), 30, 20, std::vector<double>(30, 1.0));
+    KnowledgeBase const base = base_of(founder(Interface{collectball_channels()}, Stream{8, Purpose::test}), 30, 20,
+                                       std::vector<double>(30, 1.0));
     for (int const hidden : {0, 3}) {
         auto const genomes = [&](std::uint64_t seed, int count) {
             return clone(base, {count, 10, hidden, seed}).genomes;
@@ -137,7 +138,7 @@ TEST(Clone, gives_valid_genomes_that_depend_on_the_seed_and_the_founder_alone) {
 }
 
 TEST(Clone, fits_better_with_hidden_neurons_what_depends_on_the_tick_before) {
-    // The left wheel repeats what the right ball sensor said a tick ago: nothing that reads sensors alone can tell.
+    // The left wheel repeats what the first binary sensor said a tick ago: nothing that reads sensors alone can tell.
     constexpr int length = 200;
     Stream rng{6, Purpose::test};
     KnowledgeArrays arrays;
@@ -150,7 +151,7 @@ TEST(Clone, fits_better_with_hidden_neurons_what_depends_on_the_tick_before) {
     }
     arrays.values = arrays.reward_sums = {1};
     arrays.counts = {1};
-    KnowledgeBase const base{{length, 1.83f}, {}, std::move(arrays)};
+    KnowledgeBase const base{test::config_of(length), {}, std::move(arrays)};
     double const plain = clone(base, {1, 1, 0, 1}).fit[0].absolute_error;
     double const deep = clone(base, {1, 1, 10, 1}).fit[0].absolute_error;
     EXPECT_GT(plain, 0.45);
@@ -158,7 +159,8 @@ TEST(Clone, fits_better_with_hidden_neurons_what_depends_on_the_tick_before) {
 }
 
 TEST(Clone, tells_the_error_of_the_network_that_it_returns) {
-    KnowledgeBase const base = base_of(founder(Stream{7, Purpose::test}), 1, 50, {1});
+    KnowledgeBase const base =
+        base_of(founder(Interface{collectball_channels()}, Stream{7, Purpose::test}), 1, 50, {1});
     for (int const hidden : {0, 4}) {
         Clones const clones = clone(base, {1, 1, hidden, 2});
         Network const network = compile(clones.genomes[0]);

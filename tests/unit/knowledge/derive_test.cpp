@@ -32,7 +32,7 @@ TEST(Randomize, draws_values_between_the_smallest_and_the_largest_and_keeps_ever
         EXPECT_LT(random.value(i), 5.0);
         EXPECT_EQ(random.reward_sum(i), four.reward_sum(i));
         EXPECT_EQ(random.count(i), 3u);
-        EXPECT_EQ(squared_distance(random.window(i), four.window(i)), 0.0f);
+        EXPECT_EQ(squared_distance(four.config().channels, random.window(i), four.window(i)), 0.0f);
     }
     EXPECT_EQ(random.provenance().kind, "random");
     EXPECT_EQ(random.provenance().sources, four.provenance().sources);
@@ -49,6 +49,7 @@ TEST(Permute, gives_the_same_values_to_other_features) {
     for (int round = 0; round < 200; ++round) {
         std::size_t const size = rng.below(40);
         Trace trace;
+        trace.channels = collectball_channels();
         std::vector<double> values;
         for (std::size_t i = 0; i < size; ++i) {
             trace.channel_bits.push_back(static_cast<std::uint16_t>(i));
@@ -56,7 +57,9 @@ TEST(Permute, gives_the_same_values_to_other_features) {
             values.push_back(rng.below(4));   // many equal ones
         }
         KnowledgeBase const base{
-            {1, 1.83f}, {}, {trace.channel_bits, trace.values, values, values, std::vector<std::uint32_t>(size, 1)}};
+            test::config_of(1),
+            {},
+            {trace.channel_bits, trace.values, values, values, std::vector<std::uint32_t>(size, 1)}};
         KnowledgeBase const permuted = permute(base, static_cast<std::uint64_t>(round));
         std::vector<double> sorted = values_of(permuted);
         std::sort(sorted.begin(), sorted.end());
@@ -112,7 +115,12 @@ TEST(KeepConsensus, keeps_what_matches_in_every_other_base) {
     EXPECT_EQ(shared.provenance().kind, "reduced");
 }
 
+TEST(KeepConsensus, refuses_windows_of_other_channels) {
+    KnowledgeBase const other{{1, 1.83f, Channels{{{"light", true}}, {{"motor", false}}}}, {}, {}};
+    EXPECT_THROW(keep_consensus(four, {&other, 1}), UsageError);
+}
+
 TEST(KeepConsensus, refuses_windows_of_another_length) {
-    KnowledgeBase const other{{2, 1.83f}, {}, {}};
+    KnowledgeBase const other{test::config_of(2), {}, {}};
     EXPECT_THROW(keep_consensus(four, {&other, 1}), UsageError);
 }

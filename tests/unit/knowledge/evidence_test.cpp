@@ -14,62 +14,67 @@ using ::testing::ElementsAre;
 
 namespace {
 
-constexpr KnowledgeConfig two_steps{2, 1.83f};
+KnowledgeConfig const two_steps = test::config_of(2);
 
 /// Windows of two steps; A, B, C and D are more than the threshold apart (5 bits or more).
 constexpr test::Step A0{0x000, 0.5f}, B0{0x01F, 0.5f}, C0{0x1E0, 0.5f}, D0{0x1FF, 0.5f}, end{0x000, 0.5f};
 
-/// The best-of-run (7 balls, of generation 49) shows A, B, A; its parent (4 balls, 10) shows A, C; the founder (0
-/// balls) shows D, B.
+/// The best-of-run (reward 7, of generation 49) shows A, B, A; its parent (4, 10) shows A, C; the founder (0) shows D,
+/// B.
 Trace const best = trace_of({A0, end, B0, end, A0, end}), parent = trace_of({A0, end, C0, end}),
             the_founder = trace_of({D0, end, B0, end});
 
-Exhibit exhibit_of(Trace const& trace, double balls, std::span<int const> deliveries = {},
+Exhibit exhibit_of(Trace const& trace, double reward, std::span<Reward const> rewards = {},
                    std::uint32_t generation = 0) {
-    return {windows_of(trace, 2), balls, deliveries, generation};
+    return {windows_of(trace, 2), reward, rewards, generation};
 }
 
 std::vector<double> values(KnowledgeBase const& base, ValueConfig const& config) { return values_by(base, config); }
 
 }   // namespace
 
-TEST(DiscountedReturns, of_one_delivery_are_gamma_to_the_steps_until_then) {
-    int const delivery[]{5};
-    std::vector<double> const returns = discounted_returns(delivery, 0.5, 2, 4);
+TEST(DiscountedReturns, of_one_reward_are_gamma_to_the_steps_until_then) {
+    Reward const reward[]{{5, 1}};
+    std::vector<double> const returns = discounted_returns(reward, 0.5, 2, 4);
     EXPECT_THAT(returns, ElementsAre(1.0 / 32, 1.0 / 8, 1.0 / 2, 0.0));   // windows start at steps 0, 2, 4 and 6
 }
 
-TEST(DiscountedReturns, count_a_delivery_in_the_first_step_of_a_window_in_full_and_those_before_not_at_all) {
-    int const deliveries[]{1, 4};
-    EXPECT_THAT(discounted_returns(deliveries, 0.5, 2, 3), ElementsAre(0.5 + 1.0 / 16, 0.25, 1.0));
-    int const after_the_last_window[]{6};
+TEST(DiscountedReturns, multiply_by_the_amounts_which_may_be_negative) {
+    Reward const rewards[]{{1, -0.5f}, {2, 3}};
+    EXPECT_THAT(discounted_returns(rewards, 0.5, 2, 2), ElementsAre(-0.25 + 0.75, 3.0));
+}
+
+TEST(DiscountedReturns, count_a_reward_in_the_first_step_of_a_window_in_full_and_those_before_not_at_all) {
+    Reward const rewards[]{{1, 1}, {4, 1}};
+    EXPECT_THAT(discounted_returns(rewards, 0.5, 2, 3), ElementsAre(0.5 + 1.0 / 16, 0.25, 1.0));
+    Reward const after_the_last_window[]{{6, 1}};
     EXPECT_THAT(discounted_returns(after_the_last_window, 0.5, 2, 3), ElementsAre(1.0 / 64, 1.0 / 16, 1.0 / 4));
     EXPECT_THAT(discounted_returns({}, 0.5, 2, 2), ElementsAre(0.0, 0.0));
 }
 
-TEST(DiscountedReturns, equal_the_sum_of_powers_on_random_deliveries) {
+TEST(DiscountedReturns, equal_the_sum_of_powers_on_random_rewards) {
     Stream rng{8, Purpose::test};
     for (int round = 0; round < 300; ++round) {
-        std::vector<int> deliveries;
+        std::vector<Reward> rewards;
         for (int step = 0; step < 200; ++step)
-            if (rng.chance(0.03)) deliveries.push_back(step);
+            if (rng.chance(0.03)) rewards.push_back({step, static_cast<float>(rng.uniform(-1, 2))});
         double const gamma = rng.uniform(0.5, 0.999);
         int const length = 1 + static_cast<int>(rng.below(30));
         std::vector<double> const returns =
-            discounted_returns(deliveries, gamma, length, static_cast<std::size_t>(200 / length));
+            discounted_returns(rewards, gamma, length, static_cast<std::size_t>(200 / length));
         for (std::size_t window = 0; window < returns.size(); ++window) {
             int const start = static_cast<int>(window) * length;
             double sum = 0;
-            for (int const step : deliveries)
-                if (step >= start) sum += std::pow(gamma, step - start);
+            for (Reward const& reward : rewards)
+                if (reward.step >= start) sum += reward.amount * std::pow(gamma, reward.step - start);
             EXPECT_NEAR(returns[window], sum, 1e-12);
         }
     }
 }
 
 TEST(Evidence, of_a_lineage_of_three_gives_returns_and_credit_by_hand) {
-    KnowledgeBuilder builder{two_steps, make_scan_index(two_steps), {{0.25, 0.5}, true, 0}};
-    int const by_best[]{1, 4}, by_parent[]{3};
+    KnowledgeBuilder builder{two_steps, make_scan_index(two_steps), {{0.25, 0.5}, true, {}}};
+    Reward const by_best[]{{1, 1}, {4, 1}}, by_parent[]{{3, 1}};
     builder.add_individual(exhibit_of(best, 7, by_best));
     builder.add_individual(exhibit_of(parent, 4, by_parent));
     builder.add_individual(exhibit_of(the_founder, 0));
@@ -91,9 +96,9 @@ TEST(Evidence, of_a_lineage_of_three_gives_returns_and_credit_by_hand) {
 }
 
 TEST(Evidence, credits_losses_too_and_each_pair_once) {
-    // Grandchild (3 balls) shows B twice, its parent (5) A, the founder (1) B.
+    // Grandchild (reward 3) shows B twice, its parent (5) A, the founder (1) B.
     Trace const twice = trace_of({B0, end, B0, end}), a = trace_of({A0, end}), b = trace_of({B0, end});
-    KnowledgeBuilder builder{two_steps, make_scan_index(two_steps), {{}, true, 0}};
+    KnowledgeBuilder builder{two_steps, make_scan_index(two_steps), {{}, true, {}}};
     builder.add_individual(exhibit_of(twice, 3));
     builder.add_individual(exhibit_of(a, 5));
     builder.add_individual(exhibit_of(b, 1));
@@ -121,20 +126,20 @@ TEST(Evidence, contrasts_those_who_succeed_with_those_who_do_not_in_the_same_era
 }
 
 TEST(Evidence, changes_nothing_of_features_values_and_counts_and_is_the_same_in_batches) {
-    KnowledgeConfig const config;
+    KnowledgeConfig const config = test::config_of();
     Stream rng{52, Purpose::test};
     std::vector<Trace> traces;
-    std::vector<std::vector<int>> deliveries;
+    std::vector<std::vector<Reward>> rewards;
     for (int i = 0; i < 18; ++i) {
         traces.push_back(i % 3 == 2 ? traces[static_cast<std::size_t>(i) - 2] : test::lifelike_trace(rng, 1000));
-        auto& steps = deliveries.emplace_back();
+        auto& of_one = rewards.emplace_back();
         for (int step = 0; step < 1000; ++step)
-            if (rng.chance(0.004)) steps.push_back(step);
+            if (rng.chance(0.004)) of_one.push_back({step, 1});
     }
     std::vector<Exhibit> exhibits;
     for (std::size_t i = 0; i < traces.size(); ++i)
-        exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(deliveries[i].size()),
-                            deliveries[i], static_cast<std::uint32_t>(i * 10)});
+        exhibits.push_back({windows_of(traces[i], config.window_length), static_cast<double>(rewards[i].size()),
+                            rewards[i], static_cast<std::uint32_t>(i * 10)});
     EvidenceConfig const everything{{0.9, 0.99}, true, 4};
     KnowledgeBuilder without{config, make_scan_index(config)}, plain{config, make_scan_index(config), everything},
         batches{config, make_exact_index(config), everything};
@@ -152,7 +157,7 @@ TEST(Evidence, changes_nothing_of_features_values_and_counts_and_is_the_same_in_
         ASSERT_EQ(base.value(i), bare.value(i));
         ASSERT_EQ(base.reward_sum(i), bare.reward_sum(i));
         ASSERT_EQ(base.count(i), bare.count(i));
-        ASSERT_EQ(squared_distance(base.window(i), bare.window(i)), 0.0f);
+        ASSERT_EQ(squared_distance(config.channels, base.window(i), bare.window(i)), 0.0f);
     }
     EXPECT_GT(base.evidence().successes, 0u);
     for (ValueConfig const rule : {ValueConfig{ValueRule::discounted_return, 0.9},

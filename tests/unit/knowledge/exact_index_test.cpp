@@ -32,9 +32,9 @@ std::vector<Window> windows_of_all(std::vector<Trace> const& traces, int window_
 }
 
 /// Features of a few lives, and queries: the same lives and variants of them at every degree of likeness.
-struct Lives {
+struct LivesShown {
     std::vector<Trace> known, asked;
-    Lives(std::uint32_t slot, int traces, int steps) {
+    LivesShown(std::uint32_t slot, int traces, int steps) {
         Stream rng{11, Purpose::test, 0, slot};
         for (int i = 0; i < traces; ++i) {
             known.push_back(test::lifelike_trace(rng, steps));
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(, EveryConfiguration,
 
 TEST_P(EveryConfiguration, gives_the_matches_of_the_scan) {
     auto const [window_length, threshold] = GetParam();
-    KnowledgeConfig const config{window_length, threshold};
-    Lives const lives{static_cast<std::uint32_t>(window_length), 3, 30 * window_length + 100};
+    KnowledgeConfig const config = test::config_of(window_length, threshold);
+    LivesShown const lives{static_cast<std::uint32_t>(window_length), 3, 30 * window_length + 100};
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     auto const scan_search = scan->search(), exact_search = exact->search();
     for (Window const& window : windows_of_all(lives.known, window_length)) {
@@ -87,8 +87,9 @@ TEST_P(EveryConfiguration, gives_the_matches_of_the_scan) {
 TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_the_channel) {
     // Windows that differ from the feature in one way only, by as much as a match allows: the bounds are tight there.
     auto const [window_length, threshold] = GetParam();
-    KnowledgeConfig const config{window_length, threshold};
+    KnowledgeConfig const config = test::config_of(window_length, threshold);
     Trace feature;
+    feature.channels = config.channels;
     feature.channel_bits.assign(static_cast<std::size_t>(window_length), 0);
     feature.values.assign(static_cast<std::size_t>(window_length * continuous_count), 0.0f);
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
@@ -116,8 +117,8 @@ TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_th
 
 TEST(ExactIndex, equals_the_scan_on_every_instruction_set_while_it_grows) {
     IsaGuard const guard;
-    KnowledgeConfig const config;
-    Lives const lives{5, 4, 2000};
+    KnowledgeConfig const config = test::config_of();
+    LivesShown const lives{5, 4, 2000};
     std::vector<Window> const windows = windows_of_all(lives.asked, config.window_length);
     auto const scan = make_scan_index(config);
     auto const scan_search = scan->search();
@@ -141,8 +142,8 @@ TEST(ExactIndex, equals_the_scan_on_every_instruction_set_while_it_grows) {
 
 TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     // A robot that sees nothing: only the continuous channels tell its windows apart.
-    KnowledgeConfig const config;
-    Lives lives{6, 4, 4000};
+    KnowledgeConfig const config = test::config_of();
+    LivesShown lives{6, 4, 4000};
     for (std::vector<Trace>* traces : {&lives.known, &lives.asked})
         for (Trace& trace : *traces)
             std::fill(trace.channel_bits.begin(), trace.channel_bits.end(), std::uint16_t{0x7E00});
@@ -152,26 +153,28 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
         exact->add(window);
     }
     auto const scan_search = scan->search(), exact_search = exact->search();
-    for (Window const& window : windows_of_all(lives.asked, config.window_length))
-        ASSERT_EQ(exact_search->match(window), scan_search->match(window));
+    std::vector<Window> const queries = windows_of_all(lives.asked, config.window_length);
+    for (Window const& window : queries) ASSERT_EQ(exact_search->match(window), scan_search->match(window));
+    exact->set_values(std::vector<double>(static_cast<std::size_t>(exact->size()), 1.0));
+    for (Window const& window : queries) ASSERT_EQ(exact_search->match(window), scan_search->match(window));
 }
 
 TEST(ExactIndex, equals_the_scan_on_ten_thousand_windows_of_robots_that_evolved) {
     // Lineages without selection: founders, and after each a line of mutants. Their windows repeat and resemble each
     // other as those of a run do.
-    Arena const arena = load_arena("collectball", "source");
+    CollectballWorld const world{load_arena("collectball", "source")};
+    KnowledgeConfig const config = test::config_of();
     EpisodeConfig episode;
     episode.steps = 2000;
     std::vector<Trace> traces;
     for (std::uint32_t line = 0; line < 8; ++line) {
-        Genome genome = founder(Stream{41, Purpose::founder, 0, line});
+        Genome genome = founder(Interface{config.channels}, Stream{41, Purpose::founder, 0, line});
         for (std::uint32_t age = 0; age < 15; ++age) {
-            traces.push_back(record_episode(arena, compile(genome), episode));
+            traces.push_back(record_episode(world, compile(genome), episode));
             Stream rng{41, Purpose::mutation, age, line};
             mutate(genome, {}, {}, rng);
         }
     }
-    KnowledgeConfig const config;
     std::vector<Window> const windows = windows_of_all(traces, config.window_length);
     ASSERT_GE(windows.size(), 10'000u);
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
@@ -192,7 +195,7 @@ TEST(ExactIndex, equals_the_scan_on_ten_thousand_windows_of_robots_that_evolved)
 }
 
 TEST(ExactIndex, takes_queries_beyond_the_range_of_sensors) {
-    KnowledgeConfig const config{1, 4.0f};
+    KnowledgeConfig const config = test::config_of(1, 4.0f);
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     Trace const features = test::trace_of({{0, 0.0f}, {0, 1.0f}});
     for (Window const& window : windows_of(features, 1)) {
@@ -205,8 +208,8 @@ TEST(ExactIndex, takes_queries_beyond_the_range_of_sensors) {
 }
 
 TEST(ExactIndex, reports_no_feature_that_is_worth_less_than_asked_for_unless_it_is_the_nearest) {
-    KnowledgeConfig const config;
-    Lives const lives{7, 3, 2000};
+    KnowledgeConfig const config = test::config_of();
+    LivesShown const lives{7, 3, 2000};
     auto const exact = make_exact_index(config);
     for (Window const& window : windows_of_all(lives.known, config.window_length)) exact->add(window);
     Stream rng{7, Purpose::test};

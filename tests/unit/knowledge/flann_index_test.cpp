@@ -11,13 +11,13 @@ using namespace lore;
 
 TEST(FlannIndex, finds_nothing_in_an_empty_set) {
     Trace const query = test::trace_of({{0, 0.5f}});
-    EXPECT_FALSE(make_flann_index({1, 1.83f})->search()->match(windows_of(query, 1)[0]).found());
+    EXPECT_FALSE(make_flann_index(test::config_of(1))->search()->match(windows_of(query, 1)[0]).found());
 }
 
 TEST(FlannIndex, finds_a_single_feature_and_keeps_to_the_threshold) {
     Trace const feature = test::trace_of({{0b1111, 0.5f}}), query = test::trace_of({{0, 0.5f}});
     for (float const threshold : {2.0f, 2.01f}) {
-        auto const index = make_flann_index({1, threshold});
+        auto const index = make_flann_index(test::config_of(1, threshold));
         index->add(windows_of(feature, 1)[0]);
         EXPECT_EQ(index->search()->match(windows_of(query, 1)[0]).found(), threshold > 2.0f);   // strict, not squared
         EXPECT_EQ(index->search()->match(windows_of(feature, 1)[0]), (Match{0, 0.0f}));
@@ -25,7 +25,7 @@ TEST(FlannIndex, finds_a_single_feature_and_keeps_to_the_threshold) {
 }
 
 TEST(FlannIndex, reports_only_true_matches_and_most_of_them) {
-    KnowledgeConfig const config;
+    KnowledgeConfig const config = test::config_of();
     Stream rng{21, Purpose::test};
     auto const flann = make_flann_index(config), scan = make_scan_index(config);
     std::vector<Trace> traces;

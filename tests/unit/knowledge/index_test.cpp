@@ -26,7 +26,7 @@ class EveryExactIndex : public testing::TestWithParam<std::unique_ptr<FeatureInd
 INSTANTIATE_TEST_SUITE_P(, EveryExactIndex, testing::Values(make_scan_index, make_exact_index));
 
 TEST_P(EveryExactIndex, finds_nothing_in_an_empty_set) {
-    auto const index = GetParam()({1, 1.83f});
+    auto const index = GetParam()(test::config_of(1));
     Trace const query = trace_of({{0, 0.5f}});
     Match const found = match(*index, windows_of(query, 1)[0]);
     EXPECT_FALSE(found.found());
@@ -37,23 +37,23 @@ TEST_P(EveryExactIndex, matches_strictly_below_the_threshold_only) {
     // One step; the bits differ by 4, so the distance is exactly 2.
     Trace const feature = trace_of({{0b1111, 0.5f}}), query = trace_of({{0, 0.5f}});
     Window const window = windows_of(query, 1)[0];
-    EXPECT_FALSE(match(*index_of(GetParam()({1, 2.0f}), feature, 1), window).found());
+    EXPECT_FALSE(match(*index_of(GetParam()(test::config_of(1, 2.0f)), feature, 1), window).found());
     float const above = std::nextafter(2.0f, 3.0f);
-    Match const found = match(*index_of(GetParam()({1, above}), feature, 1), window);
+    Match const found = match(*index_of(GetParam()(test::config_of(1, above)), feature, 1), window);
     EXPECT_EQ(found, (Match{0, 4.0f}));
 }
 
 TEST_P(EveryExactIndex, takes_the_threshold_as_a_distance_not_a_square) {
     // Six continuous differences of 0.5 and one bit: squared distance 2.5, distance 1.58.
     Trace const feature = trace_of({{1, 0.5f}}), query = trace_of({{0, 0.0f}});
-    EXPECT_TRUE(match(*index_of(GetParam()({1, 1.83f}), feature, 1), windows_of(query, 1)[0]).found());
-    EXPECT_FALSE(match(*index_of(GetParam()({1, 1.5f}), feature, 1), windows_of(query, 1)[0]).found());
+    EXPECT_TRUE(match(*index_of(GetParam()(test::config_of(1)), feature, 1), windows_of(query, 1)[0]).found());
+    EXPECT_FALSE(match(*index_of(GetParam()(test::config_of(1, 1.5f)), feature, 1), windows_of(query, 1)[0]).found());
 }
 
 TEST_P(EveryExactIndex, prefers_the_nearer_feature_and_among_equals_the_first) {
     Trace const features = trace_of({{0, 0.75f}, {0, 0.25f}, {0, 0.25f}, {1, 0.5f}});
     Trace const queries = trace_of({{0, 0.25f}, {0, 0.5f}, {1, 0.5f}});
-    auto const index = index_of(GetParam()({1, 1.83f}), features, 1);
+    auto const index = index_of(GetParam()(test::config_of(1)), features, 1);
     std::vector<Window> const windows = windows_of(queries, 1);
     EXPECT_EQ(match(*index, windows[0]), (Match{1, 0.0f}));          // not 2, its double
     EXPECT_EQ(match(*index, windows[1]), (Match{0, 6 * 0.0625f}));   // 0 and 1 are equally far
@@ -61,7 +61,7 @@ TEST_P(EveryExactIndex, prefers_the_nearer_feature_and_among_equals_the_first) {
 }
 
 TEST_P(EveryExactIndex, sees_features_that_were_added_after_a_search_began) {
-    auto const index = GetParam()({1, 1.83f});
+    auto const index = GetParam()(test::config_of(1));
     auto const search = index->search();
     Trace const query = trace_of({{3, 0.5f}}), far = trace_of({{3, 0.0f}}), near = trace_of({{1, 0.5f}});
     Window const window = windows_of(query, 1)[0];

@@ -106,7 +106,7 @@ TEST(Shaper, counts_the_nearest_feature_of_a_window_though_another_within_the_th
 }
 
 TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) {
-    KnowledgeConfig const config{20, 1.83f};
+    KnowledgeConfig const config = test::config_of();
     KnowledgeBuilder builder{config, make_scan_index(config)};
     Stream rng{3, Purpose::test};
     for (int i = 0; i < 12; ++i) {
@@ -135,7 +135,7 @@ TEST(Shaper, equals_the_definition_on_lifelike_traces_in_every_order_of_asking) 
 }
 
 TEST(Shaper, answers_several_threads_alike) {
-    KnowledgeConfig const config{20, 1.83f};
+    KnowledgeConfig const config = test::config_of();
     KnowledgeBuilder builder{config, make_scan_index(config)};
     Stream rng{4, Purpose::test};
     for (int i = 0; i < 6; ++i) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <lore/collectball/channels.h>
+#include <lore/collectball/collectball.h>
 #include <lore/core/random.h>
 #include <lore/knowledge/knowledge_base.h>
 
@@ -10,6 +12,14 @@
 
 namespace lore::test {
 
+/// Windows of the usual channels: nine binary and six continuous ones, the last three of them effectors.
+inline KnowledgeConfig config_of(int window_length = 20, float match_threshold = 1.83f) {
+    return {window_length, match_threshold, collectball_channels()};
+}
+
+/// The bits of these channels that are binary ones.
+inline constexpr std::uint16_t window_bits_mask = (1u << binary_count) - 1;
+
 /// A trace of hand-made steps: each has its binary channels and one number for all six continuous channels.
 struct Step {
     std::uint16_t bits;
@@ -18,6 +28,7 @@ struct Step {
 
 inline Trace trace_of(std::initializer_list<Step> steps) {
     Trace trace;
+    trace.channels = collectball_channels();
     for (Step const& step : steps) {
         trace.channel_bits.push_back(step.bits);
         trace.values.insert(trace.values.end(), continuous_count, step.level);
@@ -30,13 +41,15 @@ inline KnowledgeBase base_of(std::initializer_list<Step> features, std::vector<d
                              std::uint32_t count = 1, Provenance provenance = {}) {
     Trace const trace = trace_of(features);
     std::vector<std::uint32_t> const counts(values.size(), count);
-    return KnowledgeBase{{1, 1.83f}, std::move(provenance), {trace.channel_bits, trace.values, values, values, counts}};
+    return KnowledgeBase{
+        config_of(1), std::move(provenance), {trace.channel_bits, trace.values, values, values, counts}};
 }
 
 /// A trace that looks like a robot's: lights come and go, wheels mostly at their stops, ranges drift. `phrases` short
 /// sequences are repeated with small changes, so that windows resemble each other as those of a lineage do.
 inline Trace lifelike_trace(Stream& rng, int steps) {
     Trace trace;
+    trace.channels = collectball_channels();
     std::uint16_t bits = static_cast<std::uint16_t>(rng.bits() & window_bits_mask);
     float values[continuous_count]{0.2f, 0.4f, 0.1f, 1.0f, 0.9f, 0.5f};
     for (int step = 0; step < steps; ++step) {

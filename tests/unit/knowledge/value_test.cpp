@@ -1,3 +1,4 @@
+#include "knowledge/traces.h"
 #include "support/complaint.h"
 
 #include <lore/core/random.h>
@@ -24,14 +25,14 @@ KnowledgeBase two_features() {
     arrays.evidence.has_credit = true;
     arrays.evidence.news = {2, 0};
     arrays.evidence.gain_sums = {-3.0, 0.0};
-    arrays.evidence.success_balls = 3;
+    arrays.evidence.success_reward = 3;
     arrays.evidence.successes = 4;
     arrays.evidence.failures = 4;
     arrays.evidence.successes_that_showed = {4, 2};
     arrays.evidence.failures_that_showed = {0, 2};
     Provenance provenance;
     provenance.kind = "all";
-    return KnowledgeBase{{1, 1.83f}, provenance, std::move(arrays)};
+    return KnowledgeBase{test::config_of(1), provenance, std::move(arrays)};
 }
 
 std::string complaint(KnowledgeBase const& base, ValueConfig const& config) {
@@ -88,7 +89,7 @@ TEST(Revalue, finds_the_evidence_again_in_what_was_randomized_permuted_or_reduce
 }
 
 TEST(Revalue, refuses_what_the_base_does_not_know) {
-    KnowledgeBase const bare{{1, 1.83f}, {}, {{0}, std::vector<float>(6), {2.0}, {4.0}, {2}}};
+    KnowledgeBase const bare{test::config_of(1), {}, {{0}, std::vector<float>(6), {2.0}, {4.0}, {2}}};
     for (ValueRule const rule : {ValueRule::discounted_return, ValueRule::contrast, ValueRule::credit})
         EXPECT_THAT(complaint(bare, {rule, 0.9}), HasSubstr("needs evidence that the base does not have"));
     EXPECT_THAT(complaint(two_features(), {ValueRule::discounted_return, 0.7}), HasSubstr("gamma 0.5, 0.9, not 0.7"));
@@ -105,8 +106,9 @@ TEST(Revalue, refuses_values_that_are_no_numbers) {
     arrays.evidence.gammas = {0.5};
     arrays.evidence.showings = {0};   // no file that is read has this
     arrays.evidence.return_sums = {0.0};
-    EXPECT_THAT(complaint(KnowledgeBase{{1, 1.83f}, {}, std::move(arrays)}, {ValueRule::discounted_return, 0.5}),
-                HasSubstr("nan for feature 0"));
+    EXPECT_THAT(
+        complaint(KnowledgeBase{test::config_of(1), {}, std::move(arrays)}, {ValueRule::discounted_return, 0.5}),
+        HasSubstr("nan for feature 0"));
 }
 
 TEST(ValueRule, is_known_by_its_name) {

@@ -24,12 +24,12 @@ TEST(SquaredDistance, adds_squares_of_continuous_channels_and_differing_bits) {
     Trace const a = trace_of({{0b011, 0.0f}, {0, 0.5f}});
     Trace const b = trace_of({{0b101, 0.5f}, {0, 0.5f}});
     // Step 0: six differences of 0.5, two differing bits; step 1: nothing.
-    EXPECT_EQ(squared_distance(windows_of(a, 2)[0], windows_of(b, 2)[0]), 6 * 0.25f + 2);
+    EXPECT_EQ(squared_distance(collectball_channels(), windows_of(a, 2)[0], windows_of(b, 2)[0]), 6 * 0.25f + 2);
 }
 
 TEST(SquaredDistance, ignores_the_thresholded_channels_above_the_binary_ones) {
     Trace const a = trace_of({{0x0000, 0.5f}}), b = trace_of({{0x7E00, 0.5f}});
-    EXPECT_EQ(squared_distance(windows_of(a, 1)[0], windows_of(b, 1)[0]), 0.0f);
+    EXPECT_EQ(squared_distance(collectball_channels(), windows_of(a, 1)[0], windows_of(b, 1)[0]), 0.0f);
 }
 
 TEST(SquaredDistance, is_symmetric_and_near_the_sum_in_double_precision) {
@@ -42,7 +42,7 @@ TEST(SquaredDistance, is_symmetric_and_near_the_sum_in_double_precision) {
         for (std::size_t k = 0; k < a.values.size(); ++k) sum += std::pow(double{a.values[k]} - b.values[k], 2);
         for (std::size_t k = 0; k < a.bits.size(); ++k)
             sum += std::popcount(static_cast<unsigned>((a.bits[k] ^ b.bits[k]) & 0x1FF));
-        EXPECT_NEAR(squared_distance(a, b), sum, 1e-5 * (1 + sum));
-        EXPECT_EQ(squared_distance(a, b), squared_distance(b, a));
+        EXPECT_NEAR(squared_distance(collectball_channels(), a, b), sum, 1e-5 * (1 + sum));
+        EXPECT_EQ(squared_distance(collectball_channels(), a, b), squared_distance(collectball_channels(), b, a));
     }
 }

@@ -1,20 +1,23 @@
 #include <lore/network/genome.h>
 
+#include "support/robot.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
 using namespace lore;
+using lore::test::robot;
 
 namespace {
 
-Genome small() { return {{{0, 12, 0.5f}, {3, 15, 0.25f}, {15, 13, 1.0f}}, {0.5f, 0.5f, 0.5f, 0.75f}}; }
+Genome small() { return {robot, {{0, 12, 0.5f}, {3, 15, 0.25f}, {15, 13, 1.0f}}, {0.5f, 0.5f, 0.5f, 0.75f}}; }
 
 }   // namespace
 
 TEST(Founder, joins_every_input_to_every_output_once_with_genes_all_over_the_unit_interval) {
-    Genome const genome = founder(Stream{1, Purpose::founder, 0, 7});
+    Genome const genome = founder(robot, Stream{1, Purpose::founder, 0, 7});
     EXPECT_EQ(why_invalid(genome), "");
     EXPECT_EQ(genome.edges.size(), 36u);
     EXPECT_EQ(genome.hidden_count(), 0);
@@ -30,8 +33,8 @@ TEST(Founder, joins_every_input_to_every_output_once_with_genes_all_over_the_uni
 }
 
 TEST(Founder, is_a_function_of_its_stream) {
-    EXPECT_EQ(founder(Stream{1, Purpose::founder, 0, 7}), founder(Stream{1, Purpose::founder, 0, 7}));
-    EXPECT_NE(founder(Stream{1, Purpose::founder, 0, 7}), founder(Stream{1, Purpose::founder, 0, 8}));
+    EXPECT_EQ(founder(robot, Stream{1, Purpose::founder, 0, 7}), founder(robot, Stream{1, Purpose::founder, 0, 7}));
+    EXPECT_NE(founder(robot, Stream{1, Purpose::founder, 0, 7}), founder(robot, Stream{1, Purpose::founder, 0, 8}));
 }
 
 TEST(Genome, with_every_invariant_kept_is_valid) { EXPECT_EQ(why_invalid(small()), ""); }

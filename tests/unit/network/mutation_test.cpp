@@ -1,5 +1,7 @@
 #include <lore/network/mutation.h>
 
+#include "support/robot.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,13 +9,14 @@
 #include <map>
 
 using namespace lore;
+using lore::test::robot;
 
 namespace {
 
 Stream stream(std::uint32_t slot = 0) { return {20, Purpose::test, 1, slot}; }
 
 /// One input, one hidden neuron with a self loop, one output.
-Genome chain() { return {{{2, 15, 0.25f}, {15, 15, 0.5f}, {15, 13, 0.75f}}, {0.1f, 0.2f, 0.3f, 0.4f}}; }
+Genome chain() { return {robot, {{2, 15, 0.25f}, {15, 15, 0.5f}, {15, 13, 0.75f}}, {0.1f, 0.2f, 0.3f, 0.4f}}; }
 
 std::vector<Edge> sorted(std::vector<Edge> edges) {
     std::sort(edges.begin(), edges.end(), [](Edge const& a, Edge const& b) {
@@ -42,7 +45,7 @@ TEST(MutateWeights, changes_weights_at_its_rate_and_nothing_else) {
     MutationConfig const config;
     Stream rng = stream();
     int changed = 0;
-    Genome const before = founder(stream(1));
+    Genome const before = founder(robot, stream(1));
     for (int i = 0; i < 2000; ++i) {
         Genome after = before;
         mutate_weights(after, config, rng);
@@ -98,7 +101,7 @@ TEST(Rewire, moves_one_end_of_at_most_one_edge_and_keeps_its_weight_and_place) {
 TEST(Rewire, does_nothing_where_no_other_end_is_free) {
     MutationConfig config;
     config.rewire_probability = 1.0;
-    Genome const full = founder(stream());   // without hidden neurons every pair is taken
+    Genome const full = founder(robot, stream());   // without hidden neurons every pair is taken
     Stream rng = stream();
     for (int i = 0; i < 20; ++i) {
         Genome after = full;
@@ -128,7 +131,7 @@ TEST(AddEdge, is_refused_at_the_limit_and_where_no_pair_is_free) {
     EXPECT_FALSE(add_edge(genome, {30, 3}, rng));
     EXPECT_EQ(genome, chain());
     EXPECT_TRUE(add_edge(genome, {30, 4}, rng));
-    Genome full = founder(stream());
+    Genome full = founder(robot, stream());
     EXPECT_FALSE(add_edge(full, {}, rng));
 }
 
@@ -148,12 +151,12 @@ TEST(DeleteEdge, removes_one_edge_and_keeps_the_order_of_the_others) {
 
 TEST(DeleteEdge, is_refused_without_edges) {
     Stream rng = stream();
-    Genome genome{{}, {0, 0, 0}};
+    Genome genome{robot, {}, {0, 0, 0}};
     EXPECT_FALSE(delete_edge(genome, rng));
 }
 
 TEST(SplitEdge, puts_a_neuron_between_the_ends_with_the_old_weight_on_both_sides) {
-    Genome genome{{{4, 12, 0.3f}}, {0.1f, 0.2f, 0.3f}};
+    Genome genome{robot, {{4, 12, 0.3f}}, {0.1f, 0.2f, 0.3f}};
     Stream rng = stream();
     ASSERT_TRUE(split_edge(genome, {}, rng));
     EXPECT_EQ(genome.edges, (std::vector<Edge>{{4, 15, 0.3f}, {15, 12, 0.3f}}));
@@ -168,14 +171,14 @@ TEST(SplitEdge, is_refused_at_either_limit_and_without_edges) {
     EXPECT_FALSE(split_edge(genome, {30, 3}, rng));
     EXPECT_EQ(genome, chain());
     EXPECT_TRUE(split_edge(genome, {2, 4}, rng));
-    Genome bare{{}, {0, 0, 0}};
+    Genome bare{robot, {}, {0, 0, 0}};
     EXPECT_FALSE(split_edge(bare, {}, rng));
 }
 
 TEST(DeleteNeuron, takes_its_edges_with_it_and_renumbers_those_above) {
-    Genome const before{{{0, 15, 0.1f}, {15, 16, 0.2f}, {16, 12, 0.3f}, {1, 16, 0.4f}}, {0, 0, 0, 0.5f, 0.6f}};
-    Genome const without_first{{{15, 12, 0.3f}, {1, 15, 0.4f}}, {0, 0, 0, 0.6f}};
-    Genome const without_second{{{0, 15, 0.1f}}, {0, 0, 0, 0.5f}};
+    Genome const before{robot, {{0, 15, 0.1f}, {15, 16, 0.2f}, {16, 12, 0.3f}, {1, 16, 0.4f}}, {0, 0, 0, 0.5f, 0.6f}};
+    Genome const without_first{robot, {{15, 12, 0.3f}, {1, 15, 0.4f}}, {0, 0, 0, 0.6f}};
+    Genome const without_second{robot, {{0, 15, 0.1f}}, {0, 0, 0, 0.5f}};
     Stream rng = stream();
     int first = 0, second = 0;
     for (int i = 0; i < 200; ++i) {
@@ -190,7 +193,7 @@ TEST(DeleteNeuron, takes_its_edges_with_it_and_renumbers_those_above) {
 
 TEST(DeleteNeuron, is_refused_without_hidden_neurons) {
     Stream rng = stream();
-    Genome genome = founder(stream());
+    Genome genome = founder(robot, stream());
     EXPECT_FALSE(delete_neuron(genome, rng));
 }
 
@@ -200,7 +203,7 @@ TEST(Mutate, keeps_the_invariants_and_the_limits_over_thousands_of_mutations) {
     int most_neurons = 0;
     std::size_t most = 0;
     for (std::uint32_t line = 0; line < 20; ++line) {
-        Genome genome = founder(stream(line));
+        Genome genome = founder(robot, stream(line));
         Stream rng{21, Purpose::test, 0, line};
         for (int i = 0; i < 1000; ++i) {
             mutate(genome, config, limits, rng);
@@ -219,7 +222,7 @@ TEST(Mutate, reaches_large_networks_when_only_additions_happen) {
     MutationConfig config;
     config.add_edge_probability = config.add_neuron_probability = 1.0;
     config.delete_edge_probability = config.delete_neuron_probability = 0.0;
-    Genome genome = founder(stream());
+    Genome genome = founder(robot, stream());
     Stream rng = stream(3);
     for (int i = 0; i < 300; ++i) mutate(genome, config, {}, rng);
     EXPECT_EQ(why_invalid(genome), "");

@@ -32,8 +32,8 @@ int occurrences(std::string const& text, std::string const& part) {
 TEST(Boxplots, draw_every_run_as_a_point_and_mark_what_differs) {
     Results results;
     for (int i = 0; i < 12; ++i) {
-        results.runs.push_back({"none", i, 1, i % 3, 0, 0, "", ""});
-        results.runs.push_back({"kb1", i, 1, 5 + i % 3, 0, 0, "", ""});
+        results.runs.push_back({"none", i, 1, 1.0 * (i % 3), 0, 0, "", ""});
+        results.runs.push_back({"kb1", i, 1, 5.0 + i % 3, 0, 0, "", ""});
     }
     CampaignPlan const plan = two_treatments();
     auto const comparisons = compare_treatments(plan, results);
@@ -52,7 +52,7 @@ TEST(Boxplots, stack_brackets_so_that_none_overlap) {
         treatment.name = treatment.label = "t" + std::to_string(t);
         plan.targets.push_back(treatment);
         plan.report_order.push_back(treatment.name);
-        for (int i = 0; i < 10; ++i) results.runs.push_back({treatment.name, i, 1, 10 * t + i % 3, 0, 0, "", ""});
+        for (int i = 0; i < 10; ++i) results.runs.push_back({treatment.name, i, 1, 10.0 * t + i % 3, 0, 0, "", ""});
     }
     auto const comparisons = compare_treatments(plan, results);
     ASSERT_EQ(comparisons.size(), 6u);   // all differ: neighbors share a level, the others need three more
@@ -64,6 +64,48 @@ TEST(Boxplots, stack_brackets_so_that_none_overlap) {
         EXPECT_TRUE(marks.insert(svg.substr(start, svg.find(" font-size", start) - start)).second)
             << "two marks at one place";
     }
+}
+
+/// Runs of a world whose reward is a cost.
+Results costs() {
+    Results results;
+    for (int i = 0; i < 6; ++i)
+        for (char const* name : {"none", "kb1"})
+            results.runs.push_back({name, i, 1, -123.5 + i * (name[0] == 'k' ? 0.5 : 1.5), 0, 0, "", "", "cos"});
+    for (int g = 0; g <= 100; g += 10)
+        results.curves.push_back({"kb1", g, 3, 0.5 * g - 123, 0.5 * g - 125, 0.5 * g - 121});
+    return results;
+}
+
+/// All heights in the document are within it.
+void expect_inside(std::string const& svg) {
+    double const height = std::stod(svg.substr(svg.find("height=\"") + 8));
+    for (char const* key : {" y1=\"", " cy=\"", " y=\""})
+        for (std::size_t at = svg.find(key); at != std::string::npos; at = svg.find(key, at + 1)) {
+            double const y = std::stod(svg.substr(at + std::string_view{key}.size()));
+            EXPECT_GE(y, 0) << key;
+            EXPECT_LE(y, height) << key;
+        }
+}
+
+TEST(Boxplots, have_an_axis_for_negative_rewards_and_their_unit) {
+    std::string const svg = draw_boxplots(two_treatments(), costs(), {});
+    EXPECT_EQ(occurrences(svg, "reward [cos] (best-of-run)"), 1);
+    EXPECT_EQ(occurrences(svg, ">-120</text>"), 1);
+    EXPECT_EQ(occurrences(svg, ">0</text>"), 0);
+    EXPECT_EQ(occurrences(svg, "<circle"), 12);
+    expect_inside(svg);
+}
+
+TEST(Curves, have_an_axis_for_negative_rewards_and_leave_out_a_source_of_another_unit) {
+    Results results = costs();
+    results.runs.push_back({"source", 1, 1, 7, 0, 0, "", ""});
+    results.curves.push_back({"source", 0, 3, 7, 7, 7});
+    std::string const svg = draw_curves(two_treatments(), results);
+    EXPECT_EQ(occurrences(svg, "reward [cos] (mean of best-of-runs)"), 1);
+    EXPECT_EQ(occurrences(svg, ">-100</text>"), 1);
+    EXPECT_EQ(occurrences(svg, "<polygon"), 1);
+    expect_inside(svg);
 }
 
 TEST(Boxplots, mark_nothing_where_nothing_differs) {

@@ -22,10 +22,10 @@ CampaignPlan three_treatments() {
     return plan;
 }
 
-Results results_with(std::vector<std::pair<std::string, std::vector<int>>> const& balls) {
+Results results_with(std::vector<std::pair<std::string, std::vector<double>>> const& rewards) {
     Results results;
-    for (auto const& [treatment, values] : balls)
-        for (int const value : values) results.runs.push_back({treatment, 1, 1, value, 0, 0, "", ""});
+    for (auto const& [treatment, values] : rewards)
+        for (double const value : values) results.runs.push_back({treatment, 1, 1, value, 0, 0, "", ""});
     return results;
 }
 

@@ -6,8 +6,8 @@
 using namespace lore;
 
 TEST(Filled, takes_the_whole_line_of_a_place_that_stands_alone) {
-    EXPECT_EQ(filled("bases", {{"bases", ""}}).find("\n\n"), std::string::npos);
-    std::string const section = filled("bases", {{"bases", "<table>\n</table>\n"}});
+    EXPECT_EQ(filled("bases", {{"noun", "reward"}, {"bases", ""}}).find("\n\n"), std::string::npos);
+    std::string const section = filled("bases", {{"noun", "reward"}, {"bases", "<table>\n</table>\n"}});
     EXPECT_NE(section.find("</h2>\n<table>\n</table>\n<p "), std::string::npos) << section;
 }
 

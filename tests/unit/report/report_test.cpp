@@ -138,7 +138,7 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
     }
 }
 
-TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {
+TEST_F(Report, needs_no_more_than_the_final_rewards_and_the_curves) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
     std::filesystem::create_directories(scratch.file("kept"));
@@ -160,4 +160,46 @@ TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {
     write("kept/curves.csv", "treatment,generation,runs,mean,low,high\nkb1,0,3,1,0.5,1.5\n");
     write("kept/final.csv", "treatment,run,seed,balls\nkb9,1,1,3\n");
     EXPECT_THROW(write_report(plan(), directory("kept")), Error) << "a treatment that the campaign does not know";
+}
+
+TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tables) {
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    write_report(plan(), directory());
+    EXPECT_TRUE(made("final.csv").starts_with("treatment,run,seed,reward,unit\nsource,1,1,-")) << made("final.csv");
+    EXPECT_TRUE(made("population.csv").starts_with("treatment,generation,runs,mean_reward,"));
+    EXPECT_TRUE(made("speed.csv").starts_with("treatment,runs,generations,level_1,reached_1,time_1,"));
+    EXPECT_NE(made("knowledge/choice.json").find("\"reward_unit\": \"cos\""), std::string::npos);
+    std::string const page = made("report.html");
+    EXPECT_NE(page.find("Reward [cos] of the best-of-runs"), std::string::npos);
+    EXPECT_NE(made("figures/figure4.svg").find("reward [cos] (best-of-run)"), std::string::npos);
+    for (std::string const& text : {page, made("summary.json"), made("runs.csv"), made("kbs.csv"), made("leads.csv")})
+        EXPECT_EQ(text.find("balls"), std::string::npos) << text.substr(std::min(text.size(), text.find("balls")), 80);
+
+    std::filesystem::create_directories(scratch.file("kept"));
+    for (auto const& entry : std::filesystem::directory_iterator{scratch.file("c")})
+        if (entry.path().extension() == ".csv")
+            std::filesystem::copy_file(entry.path(), scratch.file("kept/" + entry.path().filename().string()));
+    write_report(plan(), directory("kept"), directory("again"));
+    for (char const* name : {"report.html", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
+        EXPECT_EQ(made(name), made(name, "again")) << name;
+}
+
+TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    Replay replay{"source/001", "00000000000000aa", "cos", {2, 1, "<g id=\"pole\"></g>"}, {}, {}};
+    for (int k = 0; k < 40; ++k) replay.steps.push_back({0.05f * static_cast<float>(k), 0.5f, -0.25 * k});
+    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}}});
+    write_report(plan(), directory());
+    std::string const page = made("report.html"), figure = made("figures/figure5.svg");
+    EXPECT_NE(figure.find("<g id=\"pole\"></g>"), std::string::npos);
+    EXPECT_NE(figure.find("value (cos)"), std::string::npos);
+    EXPECT_NE(page.find("\"world\":{\"width\":2.0"), std::string::npos);
+    EXPECT_NE(page.find("\\u003cg id=\\\"pole\\\">"), std::string::npos) << "which cannot end the script";
+    EXPECT_NE(page.find("[39,-9.75]"), std::string::npos) << "the reward so far";
+    EXPECT_NE(page.find("encodeURIComponent(scene)"), std::string::npos) << "the script for worlds";
+    EXPECT_EQ(page.find("balls"), std::string::npos);
 }

@@ -36,9 +36,9 @@ CampaignPlan plan_with_policy() {
 
 }   // namespace
 
-TEST(Speed, times_the_first_generation_with_so_many_balls) {
-    std::vector<std::vector<int>> const curves{{0, 1, 1, 3, 2}, {0, 0, 2, 2, 2}};
-    SpeedRow const row = speed_of("a", curves, 4);
+TEST(Speed, times_the_first_generation_with_so_much_reward) {
+    std::vector<std::vector<double>> const curves{{0, 1, 1, 3, 2}, {0, 0, 2, 2, 2}};
+    SpeedRow const row = speed_of("a", curves, 4, first_reward_levels);
     EXPECT_EQ(row.runs, 2);
     EXPECT_EQ(row.generations, 4);
     EXPECT_EQ(row.to[0].reached, 2);
@@ -56,13 +56,34 @@ TEST(Speed, times_the_first_generation_with_so_many_balls) {
     EXPECT_EQ(row.area_high, 6);
 }
 
+TEST(Speed, times_levels_and_measures_areas_below_zero) {
+    std::vector<std::vector<double>> const curves{{-4, -1.5, 0.5}};
+    SpeedRow const row = speed_of("a", curves, 2, std::vector<double>{-2, 0, 0.75});
+    EXPECT_EQ(row.to[0].level, -2);
+    EXPECT_EQ(row.to[0].mean, 1);
+    EXPECT_EQ(row.to[1].mean, 2);
+    EXPECT_EQ(row.to[1].reached, 1);
+    EXPECT_EQ(row.to[2].reached, 0);
+    EXPECT_EQ(row.area, -2.75 - 0.5);
+}
+
+TEST(Speed, has_levels_of_the_campaign_of_the_unit_or_between_the_worst_and_the_best) {
+    CampaignPlan plan;
+    using Levels = std::vector<double>;
+    EXPECT_EQ(timed_levels(plan, "balls", Levels{2, 8}), (Levels{1, 3, 5}));
+    EXPECT_EQ(timed_levels(plan, "cos", Levels{-3, -10, -6}), (Levels{-8.25, -6.5, -4.75}));
+    EXPECT_EQ(timed_levels(plan, "cos", Levels{-3, -3}), Levels{}) << "there is nothing between them";
+    plan.levels = {2, 4};
+    EXPECT_EQ(timed_levels(plan, "balls", Levels{2, 8}), (Levels{2, 4}));
+}
+
 TEST(Speed, looks_at_no_generation_after_the_last_common_one) {
-    std::vector<std::vector<int>> const curves{{0, 0, 0, 9, 9}};
-    SpeedRow const row = speed_of("a", curves, 2);
+    std::vector<std::vector<double>> const curves{{0, 0, 0, 9, 9}};
+    SpeedRow const row = speed_of("a", curves, 2, first_reward_levels);
     EXPECT_EQ(row.to[0].reached, 0);
     EXPECT_EQ(row.to[0].mean, 2);
     EXPECT_EQ(row.area, 0);
-    SpeedRow const founders = speed_of("a", std::vector<std::vector<int>>{{1}}, 0);
+    SpeedRow const founders = speed_of("a", std::vector<std::vector<double>>{{1}}, 0, first_reward_levels);
     EXPECT_EQ(founders.to[0].mean, 0);
     EXPECT_EQ(founders.to[0].reached, 1);
     EXPECT_EQ(founders.area, 0);

@@ -28,7 +28,7 @@ TEST(MeanCurve, is_over_the_runs_that_have_come_so_far) {
 
 TEST(MeanCurve, has_at_most_201_points_and_the_first_and_the_last_generation) {
     for (std::size_t length = 1; length < 900; ++length) {
-        auto const curve = mean_curve({std::vector<int>(length, 5)});
+        auto const curve = mean_curve({std::vector<double>(length, 5)});
         ASSERT_LE(curve.size(), 201u) << length;
         ASSERT_EQ(curve.front().generation, 0);
         ASSERT_EQ(curve.back().generation, static_cast<int>(length) - 1);
@@ -39,15 +39,15 @@ TEST(MeanCurve, has_at_most_201_points_and_the_first_and_the_last_generation) {
 
 class Facts : public test::CampaignTest {
 protected:
-    /// A run that has made these balls by generation, in a second each.
-    void write_progress(std::string const& step, std::vector<int> const& balls) const {
+    /// A run that has got these rewards by generation, in a second each.
+    void write_progress(std::string const& step, std::vector<double> const& rewards) const {
         std::string const run = directory().run(step);
         fs::create_directories(run);
-        std::string table = progress_header() + "\n";
-        for (std::size_t g = 0; g < balls.size(); ++g) {
+        std::string table = progress_header("balls") + "\n";
+        for (std::size_t g = 0; g < rewards.size(); ++g) {
             GenerationSummary row;
             row.generation = static_cast<int>(g);
-            row.best_balls = balls[g];
+            row.best_reward = rewards[g];
             row.seconds = static_cast<double>(g);
             table += text(row) + "\n";
         }
@@ -90,7 +90,7 @@ TEST_F(Facts, of_a_run_at_work_are_its_progress_and_the_time_that_is_left) {
     EXPECT_EQ(none.started, 1);
     EXPECT_EQ(none.running, 1);
     EXPECT_EQ(none.done, 0);
-    EXPECT_EQ(none.mean_balls, 4);
+    EXPECT_EQ(none.mean_reward, 4);
     EXPECT_THAT(none.curve, ElementsAre(MeanPoint{0, 0, 1}, MeanPoint{1, 2, 1}, MeanPoint{2, 4, 1}));
     // 4 source runs, 9 target runs and the archive, 20 generations each; 2 are done, in a second each.
     EXPECT_DOUBLE_EQ(facts.share, 2. / 280);
@@ -118,6 +118,21 @@ TEST_F(Facts, of_a_run_at_work_are_its_progress_and_the_time_that_is_left) {
     }
 }
 
+TEST_F(Facts, of_negative_rewards_name_the_greatest_with_its_unit) {
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    CampaignFacts const facts = watcher().look();
+    TreatmentFacts const none = treatment(facts, "none");
+    EXPECT_LT(none.best_reward, 0);
+    EXPECT_LE(none.mean_reward, none.best_reward);
+    EXPECT_EQ(none.reward_unit, "cos");
+    json const told = document(facts);
+    EXPECT_EQ(told["treatments"][1]["best_reward"], none.best_reward);
+    EXPECT_EQ(told["champions"][0]["reward_unit"], "cos");
+    EXPECT_FALSE(told["champions"][0].contains("balls"));
+}
+
 TEST_F(Facts, grow_with_the_run_and_shrink_when_it_is_resumed_at_a_checkpoint) {
     CampaignWatcher watcher{scratch.file("campaign.toml"), scratch.file("c")};
     write_progress("none/001", {0, 1});
@@ -126,7 +141,7 @@ TEST_F(Facts, grow_with_the_run_and_shrink_when_it_is_resumed_at_a_checkpoint) {
     write_progress("none/002", {0});
     EXPECT_EQ(treatment(watcher.look(), "none").curve.size(), 4u);
     EXPECT_EQ(treatment(watcher.look(), "none").started, 2);
-    EXPECT_EQ(treatment(watcher.look(), "none").mean_balls, 1.5);
+    EXPECT_EQ(treatment(watcher.look(), "none").mean_reward, 1.5);
     write_progress("none/001", {0, 1, 1});
     EXPECT_EQ(treatment(watcher.look(), "none").curve.size(), 3u);
     fs::remove_all(scratch.file("c"));
@@ -143,7 +158,7 @@ TEST_F(Facts, of_a_finished_campaign_name_the_best_runs_and_leave_no_time) {
     EXPECT_FALSE(facts.seconds_left);
     ASSERT_EQ(facts.champions.size(), 2u);
     EXPECT_THAT(facts.champions[0].run, HasSubstr("source/"));
-    EXPECT_EQ(facts.champions[0].balls, treatment(facts, "source").best_balls);
+    EXPECT_EQ(facts.champions[0].reward, treatment(facts, "source").best_reward);
     EXPECT_THAT(facts.champions[1].problem, HasSubstr("lineage.lore")) << "the fake program leaves no lineage";
     EXPECT_EQ(document(facts)["seconds_left"], json());
     EXPECT_THAT(watcher().replays(), IsEmpty());

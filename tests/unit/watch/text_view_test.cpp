@@ -18,7 +18,8 @@ StepWithState run_at(std::string name, StepStatus status, int generation, std::s
     state.reason = std::move(reason);
     state.generation = generation;
     state.generations = 20;
-    state.best_balls = 1;
+    state.best_reward = 1;
+    state.reward_unit = "balls";
     state.seconds = 60.0 * generation;
     return {step, state};
 }
@@ -34,8 +35,8 @@ CampaignFacts facts() {
     none.planned = 3;
     none.started = 2;
     none.done = none.failed = 1;
-    none.mean_balls = 1;
-    none.best_balls = 1;
+    none.mean_reward = none.best_reward = 1;
+    none.reward_unit = "balls";
     facts.treatments = {none};
     facts.failures = {{"none/003", "exit code 1", "logs/none-003.log", {"it said\007 this"}}};
     facts.share = 0.5;
@@ -69,6 +70,15 @@ TEST(TextView, is_a_picture_with_the_campaign_in_the_last_line) {
                             "  none/002               [##########..........]     10/20  best 1 ball  10:00 left",
                             "  none/003 failed: exit code 1", "      logs/none-003.log", "      it said? this",
                             "[#####.....] 1 of 3 steps done, 1 running, 1 failed, about 30:00 left"));
+}
+
+TEST(TextView, has_rewards_of_any_unit) {
+    CampaignFacts other = facts();
+    other.treatments[0].mean_reward = -130.25;
+    other.treatments[0].best_reward = -123.4375;
+    other.treatments[0].reward_unit = "cos";
+    EXPECT_EQ(picture_of(other)[1],
+              "  none                      1 of 3    done  mean -130.2, best -123.4 cos  1 failed");
 }
 
 TEST(TextView, has_a_line_for_every_change) {

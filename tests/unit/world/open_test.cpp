@@ -106,6 +106,51 @@ TEST_F(OpenWorld, reads_its_table_of_a_configuration_and_nothing_else) {
     EXPECT_THAT(complaint_of<UsageError>([&] { request("world = \"mine\"\n"); }), HasSubstr("a table is expected"));
 }
 
+TEST_F(OpenWorld, reads_the_command_of_a_process) {
+    auto const request = [&](std::string const& text) {
+        std::ofstream{scratch.file("config/mine.toml")} << text;
+        return read_world_request(scratch.file("config/mine.toml"));
+    };
+    WorldRequest const all =
+        request("[world]\nprocess = [\"python3\", \"mine.py\"]\npatience = 2.5\n[world.settings]\na = 1\n");
+    EXPECT_EQ(all.name, "");
+    EXPECT_EQ(all.process, (std::vector<std::string>{"python3", "mine.py"}));
+    EXPECT_EQ(all.patience, 2.5);
+    EXPECT_EQ(all.settings, "a = 1\n");
+    EXPECT_EQ(all.folder, scratch.file("config"));
+    EXPECT_EQ(request("[world]\nprocess = [\"mine\"]\n").patience, 60);
+    auto const refused = [&](std::string const& text) { return complaint_of<UsageError>([&] { request(text); }); };
+    EXPECT_THAT(refused("[world]\nprocess = []\n"), HasSubstr("it names no program"));
+    EXPECT_THAT(refused("[world]\nprocess = \"mine.py\"\n"), HasSubstr("an array of strings is expected"));
+    EXPECT_THAT(refused("[world]\nprocess = [\"a\"]\nlibrary = \"b\"\n"), HasSubstr("Name one of both"));
+    EXPECT_THAT(refused("[world]\nlibrary = \"b\"\npatience = 3\n"), HasSubstr("only a process has a time limit"));
+    EXPECT_THAT(refused("[world]\nprocess = [\"a\"]\npatience = 0\n"), HasSubstr("world.patience"));
+}
+
+TEST_F(OpenWorld, keeps_which_files_a_process_came_from) {
+    std::string const script = std::string{LORE_SOURCE_DIR} + "/tests/support/worlds/trial_process.py";
+    fs::copy_file(script, scratch.file("config/mine.py"));
+    WorldRequest request{"", "", scratch.file("config")};
+    request.process = {LORE_PYTHON, "-IS", "mine.py"};
+    std::string const called = std::string{LORE_PYTHON} + " -IS mine.py";
+    OpenedWorld const opened = open_world(request, builtins);
+    EXPECT_EQ(opened.origin.file, "");
+    EXPECT_EQ(opened.origin.command, request.process);
+    EXPECT_EQ(text(opened.origin), called);
+    // The interpreter is named by its path, so it is one of the files.
+    EXPECT_EQ(opened.origin.checksum,
+              checksum(checksum_text(checksum_of_file(LORE_PYTHON)) + checksum_text(checksum_of_file(script))));
+    request.process = {"sh", "-c", "exec " + called};
+    EXPECT_EQ(open_world(request, builtins).origin.bytes, 0u) << "no word is a file";
+    request.process = {"./mine", "mine.py"};
+    std::ofstream{scratch.file("config/mine")} << "#!/bin/sh\nexec " << LORE_PYTHON << " -IS \"$@\"\n";
+    fs::permissions(scratch.file("config/mine"), fs::perms::owner_all);
+    EXPECT_EQ(open_world(request, builtins).origin.bytes,
+              fs::file_size(script) + fs::file_size(scratch.file("config/mine")));
+    EXPECT_EQ(files_of({"python3", "-B", "mine.py", "--fast"}, scratch.file("config")),
+              std::vector{scratch.file("config/mine.py")});
+}
+
 TEST(TomlLines, are_values_as_toml_writes_them_in_the_order_of_the_alphabet) {
     auto const lines = [](std::string const& text) { return TomlTable::parse(text, "test").lines(); };
     EXPECT_EQ(lines(""), "");

@@ -42,18 +42,21 @@ class Campaign:
         return Run(os.path.join(self.path, "runs", treatment, f"{number:03}"))
 
     def status(self) -> Table:
-        """A row a run: treatment, run, seed, status, generation, generations, best_balls, best, signature.
+        """A row a run: treatment, run, seed, status, generation, generations, best_balls (where any run has
+        another unit: best_reward), best, signature.
 
         Raises Damaged.
         """
         rows = [
-            (treatment, number, of.seed, of.status, of.generation, of.generations, of.best_balls, of.best, of.signature)
+            (treatment, number, of.seed, of.status, of.generation, of.generations, of.best_reward, of.best, of.signature)
             for treatment in self.treatments
             for number, run in self.runs(treatment).items()
             for of in [run.manifest]
         ]
-        names = ["treatment", "run", "seed", "status", "generation", "generations", "best_balls", "best", "signature"]
-        kinds = [np.str_, np.int64, np.uint64, np.str_, np.int64, np.int64, np.int64, np.str_, np.str_]
+        counted = all(isinstance(row[6], int) for row in rows)
+        best, kind = ("best_balls", np.int64) if counted else ("best_reward", np.float64)
+        names = ["treatment", "run", "seed", "status", "generation", "generations", best, "best", "signature"]
+        kinds = [np.str_, np.int64, np.uint64, np.str_, np.int64, np.int64, kind, np.str_, np.str_]
         return Table(
             {name: np.array([row[i] for row in rows], kind) for i, (name, kind) in enumerate(zip(names, kinds))}
         )

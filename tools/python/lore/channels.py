@@ -1,4 +1,4 @@
-"""The channels of the sensorimotor interface, in the order of traces, windows and networks; all values in [0, 1]."""
+"""The channels of collectball, in the order of traces, windows and networks; all values in [0, 1]."""
 from __future__ import annotations
 
 SENSORS = (

@@ -22,7 +22,7 @@ KINDS = {
 }
 
 _MAGIC = b"\x89LORE\r\n\x1a"
-_VERSION = 1
+_VERSION = 2
 _BYTE_ORDER = 0x01020304
 _FIELDS = struct.Struct("<8s4I2Q16sQ")
 _CHECKED_BYTES = 56  # of the header

@@ -6,6 +6,7 @@ output, which need no program.
 from __future__ import annotations
 
 import json
+import math
 import os
 from dataclasses import dataclass
 from typing import Any, Iterator
@@ -46,10 +47,16 @@ class Genome:
 class Individual:
     id: str  #: GENERATION.SLOT of its birth; "" in a founders file
     parent: str | None  #: None for founders
-    balls: int | None  #: collected in its evaluation; None where the file does not say, likewise the next two
-    shaping: float | None  #: largest value of the features it showed [balls], -1 without one
+    reward: float | None  #: of its evaluation, whole where balls are counted; None where the file does not say, likewise
+    #: the next two
+    shaping: float | None  #: largest value of the features it showed [reward unit], -1 without one
     diversity: float | None  #: in the joint ranking of the generation it was born in
     genome: Genome
+
+    @property
+    def balls(self) -> float | None:
+        """The reward, as files call it whose unit is balls."""
+        return self.reward
 
     @property
     def generation(self) -> int:
@@ -125,8 +132,9 @@ class Lineage:
         except (KeyError, TypeError, ValueError) as error:
             raise Damaged(path, f"it is a {source.header['kind']}, not a lineage archive") from error
         self.individuals = list(source)
-        if any(None in (one.balls, one.shaping, one.diversity) for one in self.individuals):
-            raise Damaged(path, "an individual without balls, shaping or diversity")
+        self._word = "reward" if "reward_unit" in source.header else "balls"
+        if any(None in (one.reward, one.shaping, one.diversity) for one in self.individuals):
+            raise Damaged(path, f"an individual without {self._word}, shaping or diversity")
         self._places = {one.id: place for place, one in enumerate(self.individuals)}
         try:
             places = [-1 if one.parent is None else self._places[one.parent] for one in self.individuals]
@@ -155,15 +163,15 @@ class Lineage:
         return line
 
     def table(self) -> Table:
-        """A row an individual: id, generation, parent ("" for founders), balls, shaping, diversity, connections,
-        hidden."""
+        """A row an individual: id, generation, parent ("" for founders), balls (of another unit: reward), shaping, diversity,
+        connections, hidden."""
         everyone = self.individuals
         outputs = int(self.header.get("outputs", 3))
         return Table({
             "id": np.array([one.id for one in everyone], np.str_),
             "generation": np.array([one.generation for one in everyone], np.int64),
             "parent": np.array([one.parent or "" for one in everyone], np.str_),
-            "balls": np.array([one.balls for one in everyone], np.int64),
+            self._word: np.array([one.reward for one in everyone], np.int64 if self._word == "balls" else np.float64),
             "shaping": np.array([one.shaping for one in everyone], np.float64),
             "diversity": np.array([one.diversity for one in everyone], np.float64),
             "connections": np.array([len(one.genome.sources) for one in everyone], np.int64),
@@ -192,10 +200,12 @@ def _individual(document: dict[str, Any]) -> Individual:
             raise ValueError("a gene that is not in 0 .. 1")
     if not 0 <= (document.get("balls") or 0) < 1 << 31:
         raise ValueError("a number of balls that no evaluation gives")
+    if not math.isfinite(document.get("reward") or 0):
+        raise ValueError("a reward that is not finite")
     return Individual(
         _typed(document.get("id", ""), str),
         _typed(document.get("parent"), str, None),
-        _typed(document.get("balls"), int, None),
+        _typed(document.get("balls"), int, None) if "balls" in document else _typed(document.get("reward"), float, int, None),
         _typed(document.get("shaping"), float, int, None),
         _typed(document.get("diversity"), float, int, None),
         genome,

@@ -11,19 +11,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .channels import BINARY, CHANNELS, CONTINUOUS
+from .channels import BINARY, CHANNELS, EFFECTORS, SENSORS
 from .container import map_payload
 from .errors import Damaged, FilePath
 
 _PREAMBLE = struct.Struct("<2If3I3Q16x")
-_CONTRAST = struct.Struct("<2QI4x")
+_CONTRAST = struct.Struct("<2Qd")
+_CONTRAST_OF_LAYOUT_2 = struct.Struct("<2QI4x")
 _ALIGNMENT = 64
-_LAYOUT = 2
+_LAYOUT = 3
 _LONGEST_WINDOW = 4000
 _MOST_FEATURES = 1 << 30
 _MOST_GAMMAS = 16
 _RETURNS, _CREDIT, _CONTRAST_PART = 1, 2, 4
-_BINARY_MASK = (1 << len(BINARY)) - 1
+_MOST_CHANNELS = 80
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Returns:
 
     gammas: NDArray[np.float64]  #: (G,), discounts a step, increasing, each in (0, 1)
     showings: NDArray[np.uint64]  #: (n,), windows that matched it
-    sums: NDArray[np.float64]  #: (G, n) [balls], sum of the discounted returns over the showings
+    sums: NDArray[np.float64]  #: (G, n) [reward unit], sum of the discounted returns over the showings
 
     def why_invalid(self) -> str:
         """A number outside its range, told as a reason; "" if there is none."""
@@ -49,7 +50,7 @@ class Credit:
     """Pairs of parent and child in which the child alone showed a feature."""
 
     news: NDArray[np.uint32]  #: (n,), such pairs
-    gain_sums: NDArray[np.float64]  #: (n,) [balls], sum of the child's balls less the parent's
+    gain_sums: NDArray[np.float64]  #: (n,) [reward unit], sum of the child's reward less the parent's
 
     def why_invalid(self) -> str:
         """As Returns.why_invalid."""
@@ -58,9 +59,9 @@ class Credit:
 
 @dataclass(frozen=True)
 class Contrast:
-    """Individuals with enough balls against contemporaries with fewer."""
+    """Individuals with enough reward against contemporaries with less."""
 
-    success_balls: int  #: so many balls make a success
+    success_reward: float  #: so much makes a success [reward unit]
     successes: int
     failures: int
     successes_that_showed: NDArray[np.uint32]  #: (n,)
@@ -68,14 +69,14 @@ class Contrast:
 
     def why_invalid(self) -> str:
         """As Returns.why_invalid."""
-        if self.success_balls == 0:
-            return "its successes need no balls"
+        if not math.isfinite(self.success_reward):
+            return "the reward of its successes is not finite"
         too_many = self.successes_that_showed.max() > self.successes or self.failures_that_showed.max() > self.failures
         return "a feature that more have shown than there were" if too_many else ""
 
 
 class KnowledgeBase:
-    """n behavioral features, each a window of T steps and 15 channels, and what those who showed them earned.
+    """n behavioral features, each a window of T steps and C channels, and what those who showed them earned.
 
     All arrays are read-only views of the mapped file, numbered by feature in the order in which they were first met.
     The file may be replaced meanwhile, as Lore does it, but whoever shortens it ends the process (SIGBUS).
@@ -83,12 +84,17 @@ class KnowledgeBase:
 
     path: str
     window_length: int  #: T [steps]
+    channels: tuple[str, ...]  #: names of the C channels, sensors first
+    continuous_channels: tuple[int, ...]  #: places in `channels` of those with any value between 0 and 1
+    binary_channels: tuple[int, ...]  #: places in `channels` of those that are 0 or 1
+    reward_unit: str  #: "balls"
     match_threshold: float  #: a window nearer than this to a feature matches it [L2]
-    values: NDArray[np.float64]  #: (n,) [balls] by the rule `mean`
-    reward_sums: NDArray[np.float64]  #: (n,) [balls], of the individuals that showed it
+    values: NDArray[np.float64]  #: (n,) [reward unit] by the rule `mean`
+    reward_sums: NDArray[np.float64]  #: (n,) [reward unit], of the individuals that showed it
     counts: NDArray[np.uint32]  #: (n,), individuals that showed it, at least 1
-    continuous: NDArray[np.float32]  #: (n, T, 6), the channels of lore.CONTINUOUS, in [0, 1]
-    binary: NDArray[np.uint16]  #: (n, T), bit i is channel lore.BINARY[i]
+    continuous: NDArray[np.float32]  #: (n, T, len(continuous_channels)), in [0, 1]
+    #: (n, T, words), or (n, T) if one word holds all channels; bit i % 16 of word i // 16 is channel binary_channels[i]
+    binary: NDArray[np.uint16]
     returns: Returns | None  #: None where the build did not gather it; likewise the next two
     credit: Credit | None
     contrast: Contrast | None
@@ -118,13 +124,14 @@ class KnowledgeBase:
     def windows(self, features: Any = slice(None)) -> NDArray[np.float32]:
         """The windows of some features (a number, slice or array of them), put together: a copy.
 
-        Shape (m, T, 15), or (T, 15) for one number; channels as lore.CHANNELS, as `lore-kb export --npy` writes them.
+        Shape (m, T, C), or (T, C) for one number; channels as `channels`, as `lore-kb export --npy` writes them.
         """
-        continuous, binary = self.continuous[features], self.binary[features]
-        windows = np.empty((*binary.shape, len(CHANNELS)), np.float32)
-        windows[..., CONTINUOUS] = continuous
-        for bit, channel in enumerate(BINARY):
-            windows[..., channel] = binary >> bit & 1
+        continuous = self.continuous[features]
+        words = self.binary[features].reshape(*continuous.shape[:-1], (len(self.channels) + 15) // 16)
+        windows = np.empty((*continuous.shape[:-1], len(self.channels)), np.float32)
+        windows[..., self.continuous_channels] = continuous
+        for bit, channel in enumerate(self.binary_channels):
+            windows[..., channel] = words[..., bit // 16] >> bit % 16 & 1
         return windows
 
     def _lay_out(self, payload: NDArray[np.uint8]) -> None:
@@ -139,8 +146,8 @@ class KnowledgeBase:
             gammas = evidence = 0
         if evidence >= 8 or gammas > _MOST_GAMMAS or (gammas > 0) != (evidence & _RETURNS != 0):
             raise ValueError("its evidence is of no known kind")
-        if (binary, continuous) != (len(BINARY), len(CONTINUOUS)):
-            raise ValueError(f"it has {binary} binary and {continuous} continuous channels, not 9 and 6")
+        if not 2 <= binary + continuous <= _MOST_CHANNELS:
+            raise ValueError(f"it has {binary} binary and {continuous} continuous channels")
         if not 1 <= steps <= _LONGEST_WINDOW:
             raise ValueError(f"a window length of {steps} steps")
         if not (threshold > 0 and math.isfinite(threshold)):
@@ -162,28 +169,48 @@ class KnowledgeBase:
 
         self.values, self.reward_sums = take("<f8", features), take("<f8", features)
         self.counts = take("<u4", features)
-        self.continuous, self.binary = take("<f4", features, steps, continuous), take("<u2", features, steps)
+        words = (binary + continuous + 15) // 16
+        self.continuous = take("<f4", features, steps, continuous)
+        self.binary = take("<u2", features, steps, words) if words > 1 else take("<u2", features, steps)
         self.returns = self.credit = self.contrast = None
         if evidence & _RETURNS:
             self.returns = Returns(take("<f8", gammas), take("<u8", features), take("<f8", gammas, features))
         if evidence & _CREDIT:
             self.credit = Credit(take("<u4", features), take("<f8", features))
         if evidence & _CONTRAST_PART:
-            successes, failures, balls = _CONTRAST.unpack(take(np.uint8, _CONTRAST.size).tobytes())
-            self.contrast = Contrast(balls, successes, failures, take("<u4", features), take("<u4", features))
+            totals = _CONTRAST_OF_LAYOUT_2 if layout == 2 else _CONTRAST
+            successes, failures, reward = totals.unpack(take(np.uint8, totals.size).tobytes())
+            self.contrast = Contrast(reward, successes, failures, take("<u4", features), take("<u4", features))
         if at + provenance_bytes != len(payload):
             raise ValueError(f"{features} features do not fit its length")
-        self.provenance = _provenance(payload[at:].tobytes())
+        self.provenance = _provenance(payload[at:].tobytes(), layout)
+        self._name_channels(self.provenance["world"])
+        if (binary, continuous) != (len(self.binary_channels), len(self.continuous_channels)):
+            raise ValueError(f"it has {binary} binary and {continuous} continuous channels, its world others")
+
+    def _name_channels(self, world: dict[str, Any]) -> None:
+        """From a world's description. Raises ValueError."""
+        try:
+            self.channels = tuple(map(str, [*world["sensors"], *world["effectors"]]))
+            binary = set(world["binary"])
+            self.reward_unit = str(world.get("reward_unit", ""))
+        except (KeyError, TypeError) as error:
+            raise ValueError(f"its world cannot be understood: {error}") from error
+        self.binary_channels = tuple(i for i, name in enumerate(self.channels) if name in binary)
+        self.continuous_channels = tuple(i for i, name in enumerate(self.channels) if name not in binary)
 
     def _why_invalid(self) -> str:
         """The first number outside its range, told as a reason; "" if there is none. Takes no memory."""
         if len(self) == 0:
             return ""
         # Comparisons with NaN are false.
-        if not (self.continuous.min() >= 0 and self.continuous.max() <= 1):
+        if self.continuous.size and not (self.continuous.min() >= 0 and self.continuous.max() <= 1):
             return "a window's value is not in 0 .. 1"
-        if self.binary.max() > _BINARY_MASK:
-            return "a window has unknown channels"
+        words = self.binary.reshape(len(self), self.window_length, -1)
+        for word in range(words.shape[-1]):
+            known = max(0, min(16, len(self.binary_channels) - 16 * word))
+            if words[..., word].max() >> known != 0:
+                return "a window has unknown channels"
         if not (_all_finite(self.values) and _all_finite(self.reward_sums)):
             return "a feature's value is not finite"
         if self.counts.min() == 0:
@@ -196,11 +223,22 @@ def _all_finite(numbers: NDArray[np.float64]) -> bool:
     return math.isfinite(numbers.min()) and math.isfinite(numbers.max())  # NaN passes through both
 
 
-def _provenance(text: bytes) -> dict[str, Any]:
+def _provenance(text: bytes, layout: int) -> dict[str, Any]:
     provenance = json.loads(text)
     if not isinstance(provenance, dict):
         raise ValueError("its provenance is no JSON object")
-    for key in ("made_by", "kind", "index", "sources", "derivation", "task", "individuals", "windows", "best_balls"):
+    if layout < 3:  # of collectball, and does not say so
+        provenance["world"] = {
+            "reward_unit": "balls",
+            "sensors": list(SENSORS),
+            "effectors": list(EFFECTORS),
+            "binary": [CHANNELS[channel] for channel in BINARY],
+        }
+    world = provenance.get("world")
+    if not isinstance(world, dict):
+        raise ValueError("its provenance has no 'world'")
+    best = f"best_{world.get('reward_unit', '')}"
+    for key in ("made_by", "kind", "index", "sources", "derivation", "task", "individuals", "windows", best):
         if key not in provenance:
             raise ValueError(f"its provenance has no '{key}'")
     return provenance

@@ -34,13 +34,13 @@ _STEPS_BETWEEN_ROBOTS = 50
 
 
 def figure3(report: Report | FilePath) -> Figure:
-    """Mean best-of-run balls by generation, a line a treatment with its 95 % bootstrap band."""
+    """Mean reward of the best-of-run by generation, a line a treatment with its 95 % bootstrap band."""
     report = _report(report)
     curves, treatments, names = report.curves, _targets(report), report.labels
     target_rows = curves["generation"][curves["treatment"] != SOURCE]
     last = target_rows.max() if len(target_rows) else np.inf  # source runs may be longer
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
-    axes = figure.add_subplot(xlabel="generation", ylabel="collected balls (mean of best-of-runs)")
+    axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report)} (mean of best-of-runs)")
     for treatment, style in [(SOURCE, {"color": _SOURCE_COLOR, "dashes": (5, 3)}), *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
         if len(rows) == 0:
@@ -51,12 +51,17 @@ def figure3(report: Report | FilePath) -> Figure:
         axes.fill_between(at, rows["low"][shown], rows["high"][shown], color=style["color"], alpha=0.12, linewidth=0)
         axes.plot(at, rows["mean"][shown], label=label, **style)
     axes.margins(x=0.01)
-    axes.set_ylim(bottom=0)
+    if report.reward_word == "balls":
+        axes.set_ylim(bottom=0)
     axes.grid(axis="y", color="#dddddd", linewidth=0.7)
     axes.spines[["top", "right"]].set_visible(False)
     if axes.lines:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
     return figure
+
+
+def _reward(report: Report) -> str:
+    return "collected balls" if report.reward_word == "balls" else f"reward [{report.reward_unit}]"
 
 
 def figure4(report: Report | FilePath) -> Figure:
@@ -65,24 +70,27 @@ def figure4(report: Report | FilePath) -> Figure:
     report = _report(report)
     final = report.final
     treatments = [name for name in _targets(report) if len(final.where(treatment=name))]
-    balls = [final.where(treatment=name)["balls"] for name in treatments]
+    rewards = [final.where(treatment=name)[report.reward_word] for name in treatments]
     figure = Figure(figsize=(max(4.0, 1.1 + 1.05 * len(treatments)), 5.2), layout="constrained")
-    axes = figure.add_subplot(ylabel="collected balls (best-of-run)")
-    for place, (of_one, (_, style)) in enumerate(zip(balls, _styles(treatments)), 1):
+    axes = figure.add_subplot(ylabel=f"{_reward(report)} (best-of-run)")
+    for place, (of_one, (_, style)) in enumerate(zip(rewards, _styles(treatments)), 1):
         axes.boxplot(of_one, positions=[place], widths=0.55, showfliers=False, patch_artist=True,
                      boxprops={"facecolor": (*to_rgb(style["color"]), 0.18)},
                      medianprops={"color": "#222222", "linewidth": 2})  # fmt: skip
         axes.plot(place + _side_by_side(of_one), of_one, "o", color=style["color"], markersize=4, alpha=0.75)
     names = report.labels
-    labels = [f"{names.get(name, name)}\nn = {len(of_one)}" for name, of_one in zip(treatments, balls)]
+    labels = [f"{names.get(name, name)}\nn = {len(of_one)}" for name, of_one in zip(treatments, rewards)]
     axes.set_xticks(range(1, len(treatments) + 1), labels, fontsize=8)
-    axes.yaxis.get_major_locator().set_params(integer=True)
+    counted = report.reward_word == "balls"
+    if counted:
+        axes.yaxis.get_major_locator().set_params(integer=True)
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(axis="y", color="#dddddd", linewidth=0.7)
-    most = max((of_one.max() for of_one in balls), default=1)
+    most = max((of_one.max() for of_one in rewards), default=1)
+    step = 1 if counted else (most - min((of_one.min() for of_one in rewards), default=0)) / 8 or 1  # between brackets
     for low, high, mark, level in _brackets(report, treatments):
-        y = most + 0.5 + 0.45 * level
-        axes.plot([low + 0.05, low + 0.05, high - 0.05, high - 0.05], [y - 0.1, y, y, y - 0.1], color="#222222", lw=0.8)
+        y = most + (0.5 + 0.45 * level) * step
+        axes.plot([low + 0.05, low + 0.05, high - 0.05, high - 0.05], [y - 0.1 * step, y, y, y - 0.1 * step], color="#222222", lw=0.8)
         axes.text((low + high) / 2, y, mark, ha="center", va="center_baseline",
                   bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})  # fmt: skip
     return figure
@@ -147,11 +155,11 @@ def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     ]
 
 
-def _side_by_side(balls: NDArray[np.int64]) -> NDArray[np.float64]:
-    """How far to move each point sideways, so that those of equal balls stand side by side."""
-    offsets = np.zeros(len(balls))
-    for value in np.unique(balls):
-        equal = np.flatnonzero(balls == value)
+def _side_by_side(rewards: NDArray[Any]) -> NDArray[np.float64]:
+    """How far to move each point sideways, so that those of equal reward stand side by side."""
+    offsets = np.zeros(len(rewards))
+    for value in np.unique(rewards):
+        equal = np.flatnonzero(rewards == value)
         offsets[equal] = (np.arange(len(equal)) - (len(equal) - 1) / 2) * min(0.06, 0.8 / len(equal))
     return offsets
 

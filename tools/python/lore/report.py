@@ -64,15 +64,28 @@ class Report:
     def __init__(self, path: FilePath) -> None:
         """Raises FileNotFoundError where no report is."""
         self.path = os.fspath(path)
-        open(self._file("final.csv"), "rb").close()
+        with open(self._file("final.csv"), encoding="utf-8", errors="replace") as file:
+            columns = file.readline().rstrip("\r\n").split(",")
+        #: "balls", or "reward" where a run's reward has another unit: in the names of columns
+        self.reward_word = "reward" if "reward" in columns else "balls"
 
     def __repr__(self) -> str:
         return f"<Report {self.path}>"
 
     @property
     def final(self) -> Table:
-        """A row a finished run: treatment, run, seed, balls of its best-of-run."""
+        """A row a finished run: treatment, run, seed, balls of its best-of-run; of another unit than balls reward and
+        unit."""
         return self._table("final.csv", treatment="text", run="int", seed="seed", balls="int")
+
+    @property
+    def reward_unit(self) -> str:
+        """Of the target task; of the source task as long as no target run is finished."""
+        if self.reward_word == "balls":
+            return "balls"
+        final = self.final
+        targets = final["unit"][final["treatment"] != SOURCE]
+        return str((targets if len(targets) else final["unit"])[0])
 
     @property
     def runs(self) -> Table:
@@ -82,7 +95,7 @@ class Report:
 
     @property
     def curves(self) -> Table:
-        """treatment, generation, runs, mean of the best-of-runs [balls], low, high (95 % bootstrap band)."""
+        """treatment, generation, runs, mean of the best-of-runs [reward unit], low, high (95 % bootstrap band)."""
         return self._table("curves.csv", treatment="text", generation="int", runs="int", mean="float", low="float",
                            high="float")  # fmt: skip
 
@@ -106,7 +119,10 @@ class Report:
 
     @property
     def replay(self) -> Table:
-        """The robots of figures 5 and 6 and of the page, a row a step."""
+        """The robots of figures 5 and 6 and of the page, a row a step; in other worlds than an arena replay, step, x, y
+        and reward."""
+        if self.reward_word != "balls":
+            return self._table("replay.csv", replay="text", step="int", x="float", y="float", reward="float")
         return self._table("replay.csv", replay="text", step="int", x="float", y="float", theta="float",
                            carrying="int", door_open="int", switch_on="int", balls_mask="int",
                            collected="int")  # fmt: skip
@@ -151,4 +167,8 @@ class Report:
         return os.path.join(self.path, name)
 
     def _table(self, name: str, **columns: str) -> Table:
+        if self.reward_word != "balls":  # the tables of another unit say "reward" and have fractions
+            columns = {
+                key.replace("balls", "reward"): "float" if "balls" in key else kind for key, kind in columns.items()
+            }
         return read_table(self._file(name), columns)

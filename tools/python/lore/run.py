@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import tempfile
 import tomllib
@@ -25,7 +26,7 @@ _PROGRESS_COLUMNS = {
 }  # fmt: skip
 _MANIFEST_FIELDS: dict[str, type] = {
     "format": int, "status": str, "name": str, "task": str, "seed": int, "generation": int, "generations": int,
-    "signature": str, "best_balls": int, "best": str, "build": dict, "inputs": list, "outputs": list, "sessions": list,
+    "signature": str, "best": str, "build": dict, "inputs": list, "outputs": list, "sessions": list,
 }  # fmt: skip
 
 
@@ -39,13 +40,19 @@ class Manifest:
     seed: int
     generation: int  #: reached at the last stop, likewise the next three
     signature: str  #: 16 hexadecimal digits
-    best_balls: int  #: of the best-of-run
     best: str  #: its id
     generations: int  #: asked for
     build: dict[str, Any]  #: version, commit, compiler, build_type, libraries
     inputs: list[dict[str, Any]]  #: files: role, path, bytes, xxh3_64
     outputs: list[dict[str, Any]]
     sessions: list[dict[str, Any]]  #: one a start
+    best_reward: float  #: of the best-of-run, whole where balls are counted
+    world: dict[str, Any]  #: name, task, reward_unit and channels; {} of runs by earlier versions, in an arena
+
+    @property
+    def best_balls(self) -> float:
+        """best_reward, as files call it whose unit is balls."""
+        return self.best_reward
 
 
 def read_manifest(path: FilePath) -> Manifest:
@@ -56,7 +63,12 @@ def read_manifest(path: FilePath) -> Manifest:
             raise Damaged(path, f"there is no '{field}'")
         if not isinstance(document[field], kind) or isinstance(document[field], bool):
             raise Damaged(path, f"'{field}' is no {kind.__name__}")
-    for field in ("format", "seed", "generation", "generations", "best_balls"):
+    best = document["best_balls" if "best_balls" in document else "best_reward"] if _has_best(document) else None
+    if isinstance(best, bool) or not isinstance(best, (int, float)) or not math.isfinite(best):
+        raise Damaged(path, "it tells of no best reward")
+    if not isinstance(document.get("world", {}), dict):
+        raise Damaged(path, "'world' is no dict")
+    for field in ("format", "seed", "generation", "generations"):
         if not 0 <= document[field] < 1 << (64 if field == "seed" else 31):
             raise Damaged(path, f"'{field}' is {document[field]}")
     if document["format"] > _MANIFEST_FORMAT:
@@ -66,7 +78,12 @@ def read_manifest(path: FilePath) -> Manifest:
     for file in document["inputs"] + document["outputs"]:
         if not (isinstance(file, dict) and {"role", "path", "bytes", "xxh3_64"} <= file.keys()):
             raise Damaged(path, "an input or output is not described")
-    return Manifest(**{field: document[field] for field in _MANIFEST_FIELDS if field != "format"})
+    fields = {field: document[field] for field in _MANIFEST_FIELDS if field != "format"}
+    return Manifest(**fields, best_reward=best, world=document.get("world", {}))
+
+
+def _has_best(document: dict[str, Any]) -> bool:
+    return "best_balls" in document or "best_reward" in document
 
 
 def read_json(path: FilePath) -> dict[str, Any]:
@@ -96,7 +113,11 @@ def read_progress(path: FilePath) -> Table:
     text = read_text(path)
     if "\n" not in text:
         raise Damaged(path, "there is no header")
-    table = parse_table(text[: text.rindex("\n") + 1], path, _PROGRESS_COLUMNS)
+    columns = _PROGRESS_COLUMNS
+    if "best_reward" in text[: text.index("\n")].split(","):  # of another unit than balls
+        columns = {"best_reward": "float", "mean_reward": "float"} | columns
+        del columns["best_balls"], columns["mean_balls"]
+    table = parse_table(text[: text.rindex("\n") + 1], path, columns)
     if not np.array_equal(table["generation"], np.arange(len(table))):
         line = int(np.argmax(table["generation"] != np.arange(len(table)))) + 2
         raise Damaged(path, f"line {line} is not of generation {line - 2}")

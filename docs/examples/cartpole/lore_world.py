@@ -1,0 +1,1 @@
+../../../tools/python/lore_world.py

@@ -1,0 +1,78 @@
+// Replay: a world's scene as an image behind the path, a dot where the slider says.
+const replays = JSON.parse(document.getElementById("replay-data")?.textContent ?? "[]");
+if (replays.length > 0) {
+  const stage = document.getElementById("replay-stage");
+  const slider = document.getElementById("replay-slider");
+  const chooser = document.getElementById("replay-chooser");
+  const play = document.getElementById("replay-play");
+  const state = document.getElementById("replay-state");
+  const make = (name, attributes, parent = stage) => {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    parent.append(element);
+    return element;
+  };
+  // Pale for the lowest value to blue for the highest; gray where the knowledge base does not find the window.
+  const shade = (value, least, most) => {
+    if (value === null) return "#bbbbbb";
+    const share = most > least ? (value - least) / (most - least) : 0, mix = (a, b) => Math.round(a + (b - a) * share);
+    return `rgb(${mix(222, 8)},${mix(235, 48)},${mix(247, 107)})`;
+  };
+  let shown, parts, timer = null;
+
+  function open(replay) {
+    shown = replay;
+    stage.replaceChildren();
+    const { width, height, svg } = replay.world, unit = Math.max(width, height) / 800;
+    stage.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    // As an image, so that a scene cannot run scripts.
+    const scene = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" preserveAspectRatio="none">${svg}</svg>`;
+    if (svg !== "") make("image", { x: 0, y: 0, width, height, preserveAspectRatio: "none", href: "data:image/svg+xml," + encodeURIComponent(scene) });
+    const found = replay.values.filter(value => value !== null), least = Math.min(...found), most = Math.max(...found);
+    const trail = make("g", { fill: "none", "stroke-width": 2.2 * unit, "stroke-linecap": "round" });
+    const stretch = replay.values.length ? Math.ceil(replay.x.length / replay.values.length) : 20;
+    const trails = [];
+    for (let from = 0; from < replay.x.length - 1; from += stretch) {
+      const points = [];
+      for (let k = from; k <= Math.min(from + stretch, replay.x.length - 1); ++k) points.push(`${replay.x[k]},${replay.y[k]}`);
+      const value = replay.values.length ? replay.values[Math.floor(from / stretch)] : null;
+      trails.push(make("polyline", { points: points.join(" "), stroke: replay.values.length ? shade(value, least, most) : "#1a5ba4" }, trail));
+    }
+    make("circle", { cx: replay.x[0], cy: replay.y[0], r: 6 * unit, fill: "#2f9e6e" });
+    parts = { trails, stretch, dot: make("circle", { id: "replay-robot", r: 8 * unit, fill: "#e0452f", stroke: "#222222", "stroke-width": unit }) };
+    slider.max = replay.x.length - 1;
+    slider.value = 0;
+    show();
+  }
+
+  function show() {
+    const k = Number(slider.value);
+    parts.dot.setAttribute("cx", shown.x[k]);
+    parts.dot.setAttribute("cy", shown.y[k]);
+    const [, reward] = shown.rewards.findLast(change => change[0] <= k);
+    parts.trails.forEach((piece, i) => piece.setAttribute("opacity", i * parts.stretch <= k ? 1 : .18));
+    const value = shown.values.length ? shown.values[Math.min(Math.floor(k / parts.stretch), shown.values.length - 1)] : undefined;
+    state.textContent = `step ${k} of ${shown.x.length - 1}, reward ${reward} ${shown.unit}` +
+      (value === undefined ? "" : value === null ? ", window not in the knowledge base" : `, value ${value}`);
+  }
+
+  function stop() {
+    if (timer !== null) clearInterval(timer);
+    timer = null;
+    play.textContent = "Play";
+  }
+
+  slider.addEventListener("input", () => { stop(); show(); });
+  chooser.addEventListener("change", () => { stop(); open(replays[Number(chooser.value)]); });
+  play.addEventListener("click", () => {
+    if (timer !== null) return stop();
+    if (Number(slider.value) >= Number(slider.max)) slider.value = 0;
+    play.textContent = "Pause";
+    timer = setInterval(() => {
+      slider.value = Number(slider.value) + 4;
+      show();
+      if (Number(slider.value) >= Number(slider.max)) stop();
+    }, 33);
+  });
+  open(replays[0]);
+}
