@@ -144,6 +144,8 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
     return found;
 }
 
+std::string usual_launch() { return LORE_MPIRUN " -n {ranks} --bind-to none"; }
+
 std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory const& directory,
                                     Launcher const& launcher, Step const& step, Choice const* choice) {
     CommandContext const context{plan, directory, choice};

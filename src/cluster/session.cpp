@@ -29,8 +29,19 @@ int number_in_environment(char const* name) {
     return text == nullptr ? 0 : std::atoi(text);
 }
 
-/// srun without a matching PMI starts as many runs as there are tasks, all writing to one directory.
+/// A launcher of another MPI, or srun without a matching PMI, starts as many runs as there are processes, all writing
+/// to one directory.
 void refuse_accidental_copies() {
+    for (char const* const size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+        int const started = number_in_environment(size);
+        if (started == 1) return;
+        if (started > 1)
+            throw UsageError("this process is alone",
+                             fmt::format("its launcher started {}, but they do not find each other; lore-evolve was "
+                                         "built with {} {}",
+                                         started, mpi_library().name, mpi_library().version),
+                             "Start it with the mpirun of that MPI, or with 'srun --mpi=pmix'.");
+    }
     int const step = number_in_environment("SLURM_STEP_NUM_TASKS");
     int const tasks = step > 0 ? step : number_in_environment("SLURM_NTASKS");
     if (tasks > 1)
@@ -94,7 +105,7 @@ Session::Session(int& argc, char**& argv) {
     MPI_Comm_rank(handle->comm, &handle->rank);
     MPI_Comm_size(handle->comm, &handle->size);
     world_ = Communicator{std::move(handle)};
-    if (size() == 1 && std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
+    if (size() == 1) {
         try {
             refuse_accidental_copies();
         } catch (UsageError const&) {
@@ -114,6 +125,16 @@ void Session::abort(int exit_code) const {
     std::fflush(nullptr);
     if (launched_ && size() > 1) MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
+}
+
+MpiLibrary mpi_library() {
+#if defined(OMPI_MAJOR_VERSION)
+    return {"Open MPI", fmt::format("{}.{}.{}", OMPI_MAJOR_VERSION, OMPI_MINOR_VERSION, OMPI_RELEASE_VERSION)};
+#elif defined(MPICH_VERSION)
+    return {"MPICH", MPICH_VERSION};
+#else
+    return {"MPI", fmt::format("{}.{}", MPI_VERSION, MPI_SUBVERSION)};
+#endif
 }
 
 std::string host_name() {

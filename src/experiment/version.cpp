@@ -2,6 +2,7 @@
 
 #include "build_data.h"
 
+#include <lore/cluster/session.h>
 #include <lore/core/isa.h>
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@ BuildInformation build_information() {
     std::string const compiler = "unknown compiler";
 #endif
     BuildInformation build{build_data::version, build_data::commit, compiler, build_data::build_type, {}};
+    auto const [mpi, mpi_version] = mpi_library();
+    build.libraries.emplace_back(mpi, mpi_version);
     for (auto const& [library, version] : build_data::libraries) build.libraries.emplace_back(library, version);
     return build;
 }

@@ -26,13 +26,24 @@ inline std::string file_text(std::string const& path) {
     return text.str();
 }
 
-/// Of mpirun: the ranks on this machine.
 inline std::vector<pid_t> children_of(pid_t parent) {
     std::istringstream list{
         file_text("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children")};
     std::vector<pid_t> children;
     for (pid_t child = 0; list >> child;) children.push_back(child);
     return children;
+}
+
+/// The processes below a launcher that started no others: on this machine, mpirun of Open MPI is the parent of the
+/// ranks, that of MPICH their grandparent.
+inline std::vector<pid_t> ranks_of(pid_t launcher) {
+    std::vector<pid_t> ranks;
+    for (pid_t const child : children_of(launcher)) {
+        std::vector<pid_t> const below = ranks_of(child);
+        if (below.empty()) ranks.push_back(child);
+        ranks.insert(ranks.end(), below.begin(), below.end());
+    }
+    return ranks;
 }
 
 /// Dead processes that their parent has not waited for do not count.
@@ -54,7 +65,8 @@ public:
         static int number = 0;
         out_ = scratch.file("command-" + std::to_string(++number) + ".out");
         err_ = out_ + ".err";
-        is_launcher_ = std::find(words.begin(), words.end(), "mpirun") != words.end();
+        is_launcher_ =
+            std::any_of(words.begin(), words.end(), [](std::string const& word) { return word.starts_with("mpirun"); });
         pid_ = ::fork();
         if (pid_ == 0) become(std::move(words));
     }
@@ -138,9 +150,15 @@ inline std::vector<std::string> operator+(std::vector<std::string> left, std::ve
 
 inline std::string program(std::string const& name) { return std::string{LORE_BINARY_DIR} + "/bin/" + name; }
 
+/// MPICH's launcher dies of USR2, and its exit code after another signal may be 0 (docs/manual/cluster.md).
+inline bool const launcher_is_mpich = std::string{LORE_LAUNCHER}.find("mpich") != std::string::npos;
+
 /// `mpirun` with a number of ranks that may exceed the cores.
 inline std::vector<std::string> on_ranks(int ranks) {
-    return {"mpirun", "--quiet", "-n", std::to_string(ranks), "--oversubscribe", "--bind-to", "none"};
+    std::istringstream launcher{LORE_LAUNCHER};
+    std::vector<std::string> words;
+    for (std::string word; launcher >> word;) words.push_back(word);
+    return words + std::vector<std::string>{"-n", std::to_string(ranks)};
 }
 
 }   // namespace lore

@@ -56,12 +56,15 @@ std::uint64_t seed_of(Treatment const&, int run);
 
 struct Choice;
 
+/// "mpirun -n {ranks} --bind-to none"; the program's name is that of the MPI that Lore was built with.
+std::string usual_launch();
+
 /// How the programs are called.
 struct Launcher {
     std::string programs;   ///< directory of lore-evolve and lore-kb; empty: found by the shell's rules
-    std::string campaign_program = "lore-campaign";            ///< for the step "replay"
-    int ranks = 1;                                             ///< of one run; 1: started without mpirun
-    std::string launch = "mpirun -n {ranks} --bind-to none";   ///< put in front of a run of several ranks
+    std::string campaign_program = "lore-campaign";   ///< for the step "replay"
+    int ranks = 1;                                    ///< of one run; 1: started without mpirun
+    std::string launch = usual_launch();              ///< put in front of a run of several ranks
 };
 
 /// The step's command line. `choice` is needed by steps that depend on "choose"; without one they name their source

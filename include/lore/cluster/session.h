@@ -35,8 +35,8 @@ private:
 /// MPI from the program's start to its end. A process that no launcher has started runs alone and never touches MPI.
 class Session {
 public:
-    /// Throws UsageError if srun without a matching PMI has started several independent processes, each of which would
-    /// run alone.
+    /// Throws UsageError if a launcher of another MPI, or srun without a matching PMI, has started several independent
+    /// processes, each of which would run alone.
     Session(int& argc, char**& argv);
     /// Finalizes MPI, which waits for all ranks: a rank that fails alone must call abort() instead of leaving by an
     /// exception.
@@ -54,6 +54,13 @@ private:
     Communicator world_;
     bool launched_ = false;
 };
+
+/// The MPI that Lore was built with, such as {"Open MPI", "4.1.4"} or {"MPICH", "4.0.2"}; {"MPI", its standard} for
+/// others.
+struct MpiLibrary {
+    std::string name, version;
+};
+MpiLibrary mpi_library();
 
 /// Name of the machine that this rank runs on.
 std::string host_name();

@@ -129,7 +129,7 @@ TEST(Resume, after_kill_9_of_a_random_rank_at_random_moments_ends_with_the_same_
         if (kills < wanted) {
             // One in five while the ranks still start; the others at any moment after the next generation.
             std::string const before = timeless_progress(directory);
-            auto const living = [&] { return ranks == 1 ? std::vector{command.pid()} : children_of(command.pid()); };
+            auto const living = [&] { return ranks == 1 ? std::vector{command.pid()} : ranks_of(command.pid()); };
             if (rng.below(5) != 0) command.wait_until([&] { return timeless_progress(directory) != before; });
             else command.wait_until([&] { return !living().empty(); });
             std::this_thread::sleep_for(std::chrono::milliseconds{rng.below(300)});

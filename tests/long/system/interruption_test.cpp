@@ -39,13 +39,15 @@ TEST(Signals, stop_a_run_at_a_checkpoint_with_exit_code_75) {
 TEST(Signals, sent_to_mpirun_stop_all_ranks_with_exit_code_75) {
     Scratch const scratch;
     std::string const config = small_config(scratch, endless);
-    for (int const number : {SIGUSR1, SIGUSR2}) {
+    for (int const number : {SIGUSR1, launcher_is_mpich ? SIGTERM : SIGUSR2}) {
         std::string const directory = scratch.file(std::to_string(number));
         Command command{scratch, on_ranks(2) + evolve(config, directory)};
         ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
         command.signal(number);
-        EXPECT_EQ(command.wait(), 75) << number << command.err();
+        int const code = command.wait();
+        EXPECT_TRUE(code == 75 || (launcher_is_mpich && code == 0)) << number << ": " << code << command.err();
         EXPECT_TRUE(exists(directory + "/checkpoint.lore"));
+        EXPECT_THAT(file_text(directory + "/manifest.json"), HasSubstr("\"status\": \"interrupted\"")) << number;
     }
 }
 
@@ -57,7 +59,8 @@ TEST(Signals, that_make_mpirun_kill_its_ranks_leave_a_checkpoint) {
         Command command{scratch, on_ranks(2) + evolve(config, directory)};
         ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
         command.signal(number);
-        EXPECT_NE(command.wait(), 0);
+        int const code = command.wait();
+        EXPECT_TRUE(code != 0 || launcher_is_mpich) << number;
         EXPECT_THAT(file_text(directory + "/manifest.json"), HasSubstr("\"status\": \"interrupted\"")) << number;
     }
 }
@@ -134,7 +137,7 @@ TEST(KilledRank, ends_the_whole_job_within_seconds) {
     std::string const config = small_config(scratch, endless), directory = scratch.file("run");
     Command command{scratch, on_ranks(2) + evolve(config, directory)};
     ASSERT_TRUE(command.wait_until([&] { return exists(directory + "/checkpoint.lore"); })) << command.err();
-    auto const ranks = children_of(command.pid());
+    auto const ranks = ranks_of(command.pid());
     ASSERT_EQ(ranks.size(), 2u);
     ::kill(ranks.back(), SIGKILL);
     auto const start = std::chrono::steady_clock::now();

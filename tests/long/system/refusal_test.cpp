@@ -76,6 +76,12 @@ TEST(CommandLine, mistakes_are_one_line_and_exit_code_2) {
         EXPECT_FALSE(exists(out)) << "what is refused leaves nothing behind";
     }
     EXPECT_THAT(refusal(scratch, {evolve_, config, "--ou", out}).line, HasSubstr("'--ou' was not expected"));
+    // As the launcher of another MPI starts it.
+    std::string const foreign = launcher_is_mpich ? "OMPI_COMM_WORLD_SIZE=2" : "PMI_SIZE=2";
+    Refusal const copy = refusal(scratch, {foreign, evolve_, config, "--out", out});
+    EXPECT_EQ(copy.code, 2);
+    EXPECT_THAT(copy.line, HasSubstr("its launcher started 2, but they do not find each other"));
+    EXPECT_FALSE(exists(out));
     Refusal const on_two = refusal(scratch, on_ranks(2) + std::vector<std::string>{evolve_, config, "--out", out,
                                                                                    "--set", "evolution.generatoins=3"});
     EXPECT_EQ(on_two.code, 2);

@@ -86,7 +86,7 @@ TEST(Manifest, is_refused_where_a_whole_number_is_none_or_too_large) {
 TEST(Version, names_program_compiler_instruction_set_and_libraries) {
     std::string const version = version_text("lore-evolve");
     for (char const* const word :
-         {"lore-evolve 1.", "commit", "compiled by", "instruction set", "Open MPI 4", "Boost 1.", "zstd 1."})
+         {"lore-evolve 1.", "commit", "compiled by", "instruction set", "\nBoost 1.", "zstd 1."})
         EXPECT_THAT(version, HasSubstr(word));
 }
 
