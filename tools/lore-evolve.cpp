@@ -118,8 +118,11 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     if (line.bench) return std::nullopt;
     if (!founders.empty()) line.run.overrides.push_back("founders.from=" + founders);
     if (seed_option->count() > 0) line.run.seed = seed;
+    if (line.run.config_path.empty() && line.run.directory.empty())
+        throw UsageError("nothing to do", "neither a configuration nor --out DIR is given",
+                         "Try 'lore-evolve jobs/tasks/source.toml --out runs/s1', or see 'lore-evolve --help'.");
     if (line.run.directory.empty())
-        throw UsageError("no directory to write into", "--out is missing", "Add --out DIR.");
+        throw UsageError("no directory to write into", "--out is missing", "Add --out DIR, such as --out runs/s1.");
     if (line.run.config_path.empty() && !line.run.resume)
         throw UsageError("no configuration", "the file's name is missing", "Name one, such as jobs/tasks/source.toml.");
     if (!line.max_time.empty()) line.run.max_seconds = seconds_of(line.max_time);

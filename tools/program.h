@@ -6,12 +6,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lore {
@@ -39,6 +41,36 @@ inline void refuse_empty_values(CLI::App const& app) {
     for (CLI::App const* const command : app.get_subcommands()) refuse_empty_values(*command);
 }
 
+/// The names of the commands of a program, if it has some.
+inline std::vector<std::string> command_names(CLI::App const& app) {
+    std::vector<std::string> names;
+    for (CLI::App const* const command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return names;
+}
+
+/// "lore-kb build" once `build` was understood: the program, or its command, whose --help has what was wanted.
+inline std::string understood(CLI::App const& app) {
+    auto const chosen = app.get_subcommands();
+    return chosen.empty() ? app.get_name() : fmt::format("{} {}", app.get_name(), chosen.front()->get_name());
+}
+
+/// What to say of a word that nobody expects.
+inline std::string remedy_for_unknown(CLI::App const& app, std::string const& typed) {
+    std::vector<std::string> known;
+    auto const chosen = app.get_subcommands();
+    if (typed.starts_with("--")) {
+        for (CLI::App const* const with_options : {&app, chosen.empty() ? &app : chosen.front()})
+            for (CLI::Option const* const option : with_options->get_options())
+                for (std::string const& name : option->get_lnames()) known.push_back("--" + name);
+    } else if (chosen.empty()) {
+        known = command_names(app);
+    }
+    std::vector<std::string_view> const words(known.begin(), known.end());
+    std::string const meant = nearest_word(typed.substr(0, typed.find('=')), words.data(), words.size());
+    std::string const help = fmt::format("'{} --help'", understood(app));
+    return meant.empty() ? fmt::format("See {}.", help) : fmt::format("Did you mean '{}'? See {}.", meant, help);
+}
+
 /// Parses the command line; returns an exit code where there is nothing else to do (--help, --version).
 /// Throws UsageError for a mistake.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
@@ -49,11 +81,17 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
     } catch (CLI::Success const& help) { return app.exit(help); } catch (CLI::ParseError const& error) {
         // What is missing is often there, misspelt.
         std::vector<std::string> const unknown = app.remaining(true);
+        if (!unknown.empty())
+            throw UsageError("cannot read the command line", fmt::format("'{}' was not expected", unknown.front()),
+                             remedy_for_unknown(app, unknown.front()));
+        std::vector<std::string> const commands = command_names(app);
         std::string const what = error.what();
+        bool const wants_command =
+            error.get_name() == "RequiredError" && !commands.empty() && app.get_subcommands().empty();
         throw UsageError("cannot read the command line",
-                         unknown.empty() ? what.substr(0, what.find('\n'))
-                                         : fmt::format("'{}' was not expected", unknown.front()),
-                         fmt::format("See '{} --help'.", app.get_name()));
+                         wants_command ? fmt::format("a command is expected: {}", fmt::join(commands, ", "))
+                                       : what.substr(0, what.find('\n')),
+                         fmt::format("See '{} --help'.", understood(app)));
     }
 }
 

@@ -1,5 +1,7 @@
 #include <lore/core/input_file.h>
 
+#include <lore/core/installation.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
@@ -28,9 +30,9 @@ constexpr std::size_t first_piece = 4096;   ///< the first read of a stream
         return UsageError(fmt::format("cannot read {}", path), std::strerror(error_number), remedy);
     };
     switch (error_number) {
-    case ENOENT:
+    case ENOENT: throw refusal(remedy_for_missing(path));
+    case EISDIR: throw refusal("Name a file in it.");
     case ENOTDIR:
-    case EISDIR:
     case ELOOP:
     case ENAMETOOLONG: throw refusal("Check the path.");
     case EACCES:

@@ -142,7 +142,11 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
                               std::vector<std::string> const& overrides) {
     ExperimentConfig config;
     auto const settings = settings_of(config);
-    read_settings(TomlTable::parse(text, name), settings);
+    TomlTable const document = TomlTable::parse(text, name);
+    if (document.has("treatment"))
+        throw UsageError(name, "it is a campaign, not the configuration of a run",
+                         "Run it with 'lore-campaign run', or name a configuration, such as jobs/tasks/source.toml.");
+    read_settings(document, settings);
     config.arena = located(config.arena, directory);
     if (config.has_world())
         config.world.folder =

@@ -36,20 +36,34 @@ std::shared_ptr<Birth const> RunDirectory::individual(std::string const& which) 
     }
 }
 
+namespace {
+
+/// Where the runs are that the user may have meant.
+std::string remedy_for_no_run(std::string const& path) {
+    std::filesystem::path const runs = std::filesystem::path{path} / "runs";
+    if (std::filesystem::is_directory(runs))
+        return fmt::format("The runs of a campaign are in {}: give one, such as {}.", runs.string(),
+                           (runs / "source" / "001").string());
+    return "Give the directory that 'lore-evolve --out' wrote.";
+}
+
+}   // namespace
+
 RunDirectory open_run(std::string const& path) {
     RunDirectory run;
     run.path = path;
     if (!std::filesystem::is_directory(path))
-        throw UsageError(fmt::format("no run in {}", path), "no such directory", "Check the path.");
+        throw UsageError(fmt::format("no run in {}", path), "no such directory",
+                         "Give the directory that 'lore-evolve --out' wrote.");
     if (!std::filesystem::exists(run.file(run_file::config)))
         throw UsageError(fmt::format("no run in {}", path), fmt::format("there is no {}", run_file::config),
-                         "Check the path.");
+                         remedy_for_no_run(path));
     run.config = read_config(run.file(run_file::config));
     run.world = open_run_world(run.config, arena_text_of(run.config));
     if (!std::filesystem::exists(run.file(run_file::lineage)))
         throw Error(fmt::format("no lineage in {}", path),
                     fmt::format("{} is written when a run stops or ends", run_file::lineage),
-                    "Let it go on with 'lore-evolve --resume'.");
+                    fmt::format("Let it go on with 'lore-evolve --resume --out {}'.", path));
     run.lineage = read_lineage(run.file(run_file::lineage));
     if (std::string const other = why_other(run.lineage.world, run.world.record()); !other.empty())
         throw Error(fmt::format("cannot open the run in {}", path), other,

@@ -30,8 +30,9 @@ void refuse_remains(RunSetup const& setup) {
 
 void start_anew(RunSetup& setup, RunOptions const& options) {
     if (options.config_path.empty())
-        throw UsageError(fmt::format("nothing to start in {}", options.directory), "no configuration was given",
-                         "Name one, such as jobs/tasks/source.toml.");
+        throw UsageError(fmt::format("there is no run in {} to go on with", options.directory),
+                         fmt::format("it has no {}, and no configuration to start with was given", run_file::config),
+                         "Check --out, or name one, such as jobs/tasks/source.toml.");
     setup.order.config = parse_config(setup.given, options.overrides);
     setup.order.arena_text = arena_text_of(setup.order.config);
     if (!options.knowledge_base.empty()) setup.order.take_knowledge(options.knowledge_base);

@@ -357,7 +357,7 @@ TEST_F(LoreKb, reads_a_base_of_the_first_layout_but_finds_no_evidence_in_it) {
 }
 
 TEST_F(LoreKb, refuses_in_one_line_what_it_cannot_do) {
-    expect_refusal("", 2, "subcommand");
+    expect_refusal("", 2, "a command is expected");
     expect_refusal("build nowhere --out x.lorekb", 2, "nowhere");
     expect_refusal("build run", 2, "--out");
     expect_refusal("build run --out missing/x.lorekb", 2, "missing");

@@ -8,6 +8,7 @@
 
 #include "subcommand.h"
 
+#include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
 
 #include <array>
@@ -50,6 +51,13 @@ std::string companions() {
     return !failed && std::filesystem::exists(here / "lore-evolve") ? here.string() : "";
 }
 
+/// A run has a manifest where a campaign has none.
+void refuse_run_directory(std::string const& directory) {
+    if (!directory.empty() && std::filesystem::exists(std::filesystem::path{directory} / run_file::manifest))
+        throw UsageError(fmt::format("{} is no directory of a campaign", directory), "it holds a run of lore-evolve",
+                         "Give another with --dir; 'lore-campaign run' makes it.");
+}
+
 int start(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{help, "lore-campaign"};
@@ -63,6 +71,7 @@ int start(int argc, char** argv) {
         subcommand->add_options(*app.add_subcommand(subcommand->name, subcommand->description), arguments);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
+    refuse_run_directory(arguments.directory);
     arguments.runner.launcher.campaign_program = std::filesystem::read_symlink("/proc/self/exe").string();
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     for (Subcommand const* const subcommand : subcommands)

@@ -4,11 +4,25 @@
 #include <lore/campaign/worlds.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 #include <thread>
+
+#include <unistd.h>
 
 namespace lore::campaign_program {
 
 namespace {
+
+/// Whether the shell's rules find a program of this name.
+bool is_program(std::string const& name) {
+    if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0;
+    char const* const path = std::getenv("PATH");
+    std::istringstream folders{path == nullptr ? "/bin:/usr/bin" : path};
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (::access(fmt::format("{}/{}", folder.empty() ? "." : folder, name).c_str(), X_OK) == 0) return true;
+    return false;
+}
 
 void run_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
@@ -19,8 +33,19 @@ void run_options(CLI::App& app, Arguments& arguments) {
                    "only these steps or groups, such as source, source/007 or knowledge/kb1");
 }
 
+/// Found before the first run fails for it.
+void refuse_missing_launcher(Launcher const& launcher) {
+    std::string const name = launcher.launch.substr(0, launcher.launch.find(' '));
+    if (launcher.ranks < 2 || is_program(name)) return;
+    throw UsageError(fmt::format("cannot start runs of {} ranks", launcher.ranks),
+                     fmt::format("there is no program '{}'", name),
+                     "Install MPI (on Debian, the package openmpi-bin), name another launcher with --launch, or leave "
+                     "out --ranks.");
+}
+
 ExitCode run_steps(Arguments const& arguments) {
     RunnerOptions options = arguments.runner;
+    refuse_missing_launcher(options.launcher);
     int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     options.jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores / options.launcher.ranks);
     options.quiet = arguments.quiet;

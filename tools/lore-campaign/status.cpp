@@ -5,6 +5,7 @@
 
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <map>
 
 namespace lore::campaign_program {
@@ -24,6 +25,11 @@ ExitCode show_status(Arguments const& arguments) {
     std::vector<std::string> words;
     for (auto const& [status, count] : counts) words.push_back(fmt::format("{} {}", count, name(status)));
     fmt::print("{}\n", fmt::join(words, ", "));
+    if (!std::filesystem::exists(arguments.directory))
+        write_stderr(
+            fmt::format("lore-campaign: {} is not there yet. 'lore-campaign run' makes it; if it has run, check "
+                        "--dir.\n",
+                        arguments.directory));
     return ExitCode::done;
 }
 
