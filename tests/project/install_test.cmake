@@ -1,6 +1,7 @@
 # Installs the build into a scratch prefix, builds docs/examples/newcomers against it and runs it: it must evolve what
 # lore-evolve does. Then a world in C, compiled against the installed header, and one in Python: they keep their
 # contract.
+# The installed `lore` knows the installed jobs.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
 
@@ -13,6 +14,16 @@ function(run result_variable)
 endfunction()
 
 run(output ${CMAKE_COMMAND} --install ${BUILD} --prefix ${scratch}/prefix)
+run(overview ${scratch}/prefix/bin/lore)
+if(NOT overview MATCHES "cp -r ${scratch}/prefix/share/lore/jobs")
+  message(FATAL_ERROR "lore does not say where the jobs are:\n${overview}")
+endif()
+run(output ${scratch}/prefix/share/lore/jobs/quickstart --help)
+run(output ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${scratch}/prefix/lib/pkgconfig:${scratch}/prefix/lib64/pkgconfig
+  pkg-config --print-errors --cflags lore)
+if(NOT output MATCHES "-I${scratch}/prefix/[^ ]*/include ")
+  message(FATAL_ERROR "lore.pc does not say where the headers are: ${output}")
+endif()
 run(output ${CMAKE_COMMAND} -S ${SOURCE}/docs/examples/newcomers -B ${scratch}/build
   -DCMAKE_PREFIX_PATH=${scratch}/prefix
     -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")

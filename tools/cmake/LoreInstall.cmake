@@ -26,6 +26,7 @@ endforeach()
 list(JOIN MPI_CXX_LIBRARIES " " mpi_libraries)
 string(APPEND LORE_PC_LIBRARIES "-lboost_serialization ${mpi_libraries} -pthread -ldl")
 set(LORE_PC_REQUIRES "fmt tomlplusplus libzstd libxxhash liblz4 zlib librsvg-2.0 cairo")
+file(RELATIVE_PATH LORE_PC_INCLUDES ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 configure_file(tools/package/lore.pc.in ${PROJECT_BINARY_DIR}/lore.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lore.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
