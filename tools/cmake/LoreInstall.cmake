@@ -31,7 +31,8 @@ configure_file(tools/package/lore.pc.in ${PROJECT_BINARY_DIR}/lore.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lore.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 # What is run and copied. install-deps and the old names below jobs/ belong to the clone.
-install(DIRECTORY jobs/batch jobs/campaigns jobs/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs)
+install(DIRECTORY jobs/batch jobs/campaigns jobs/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs
+  USE_SOURCE_PERMISSIONS)
 install(PROGRAMS jobs/quickstart DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs)
 install(DIRECTORY docs/examples/pendulum docs/examples/maze docs/examples/pusher docs/examples/runner
   docs/examples/newcomers DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples

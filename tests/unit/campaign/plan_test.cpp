@@ -193,8 +193,8 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     Launcher four;
     four.ranks = 4;
     auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
-    EXPECT_THAT(shell_text({words.begin(), words.begin() + 6}),
-                ::testing::MatchesRegex("mpirun[.a-z]* -n 4 --bind-to none lore-evolve"));
+    std::string const start = shell_text({words.begin(), words.begin() + 6});
+    EXPECT_TRUE(start.starts_with("mpirun") && start.ends_with(" -n 4 --bind-to none lore-evolve")) << start;
 }
 
 namespace {
