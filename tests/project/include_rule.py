@@ -26,6 +26,8 @@ DOORS = {
     r"librsvg/.*|cairo.*": ["figure"],
     r"zstd.*|zlib\.h": ["archive"],
     r"xxhash\.h": ["archive", "core/checksum.cpp"],
+    r"archive(_entry)?\.h": ["interchange/archive_file.cpp"],
+    r"nettle/.*": ["interchange/sha256.cpp"],
     r"dlfcn\.h": ["world/library.cpp"],
     r"lore/world\.h": ["world"],
     r"CLI/.*": ["tools"],
