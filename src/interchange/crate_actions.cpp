@@ -141,6 +141,11 @@ Json inputs_of_run(Story& story, Step const& step, std::string const& id, Manife
     return inputs;
 }
 
+/// "...+00:00" for "...Z": both are ISO 8601, and some validators know the first alone.
+std::string with_offset(std::string const& time) {
+    return time.ends_with('Z') ? time.substr(0, time.size() - 1) + "+00:00" : time;
+}
+
 void tell_run(Story& story, Step const& step) {
     std::string const folder = fmt::format("runs/{}/", step.name);
     if (!story.has(story.inventory.files, folder + run_file::manifest)) return;
@@ -154,9 +159,9 @@ void tell_run(Story& story, Step const& step) {
     Json action{
         {"@id", id}, {"@type", "CreateAction"}, {"name", "Run " + step.name}, {"description", story.command(step)}};
     if (!manifest.sessions.empty()) {
-        action["startTime"] = manifest.sessions.front().started;
+        action["startTime"] = with_offset(manifest.sessions.front().started);
         std::string const& stopped = manifest.sessions.back().stopped;
-        if (!stopped.empty()) action["endTime"] = stopped;
+        if (!stopped.empty()) action["endTime"] = with_offset(stopped);
         story.told.last_day = std::max(story.told.last_day, stopped.substr(0, 10));
     }
     action["instrument"] = reference_to(story.software.evolve(manifest.build));
