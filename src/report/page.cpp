@@ -56,6 +56,19 @@ std::string significance(CampaignPlan const& plan, std::vector<Comparison> const
                   {{"square", p_value_square(plan, comparisons)}, {"pairs", pairs_table(plan, comparisons)}});
 }
 
+std::string pools(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& planned) {
+    if (plan.pools.empty()) return "";
+    std::string const tests =
+        planned.empty() ? "" : filled("planned", {{"planned", pairs_table(plan, planned, "planned", Spacing::dense)}});
+    return filled("pools", {{"pools", pools_table(plan, results)}, {"planned", tests}});
+}
+
+/// A page without a dense table has the style of before there was one.
+std::string style(CampaignPlan const& plan, Results const& results) {
+    bool const plain = results.speeds.empty() && plan.pools.empty();
+    return std::string{report_css} + (plain ? "" : filled("dense", {}));
+}
+
 std::string bases(CampaignPlan const& plan, Results const& results) {
     return results.bases.empty() ? "" : filled("bases", {{"bases", bases_table(plan, results)}});
 }
@@ -94,24 +107,25 @@ int last_generation(Results const& results) {
 }   // namespace
 
 std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
-                        Figures const& figures) {
-    std::size_t const planned = planned_runs(plan);
+                        std::vector<Comparison> const& planned, Figures const& figures) {
+    std::size_t const runs = planned_runs(plan);
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
     // A new part is a function here, a place in page.html.in, and a block there for what stands around it.
     return filled("page", {{"title", escaped(plan.title)},
-                           {"css", std::string{report_css}},
+                           {"css", style(plan, results)},
                            {"js", std::string{report_js}},
                            {"finished", std::to_string(results.runs.size())},
-                           {"planned", std::to_string(planned)},
+                           {"planned", std::to_string(runs)},
                            {"generation", std::to_string(last_generation(results))},
-                           {"incomplete", results.runs.size() < planned ? filled("incomplete", {}) : ""},
+                           {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
                            {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
                            {"treatments", treatments_table(plan, results)},
                            {"figure3", figure(figures, "figure3")},
                            {"figure4", figure(figures, "figure4")},
                            {"speed", speeds(plan, results)},
+                           {"pools", pools(plan, results, planned)},
                            {"significance", significance(plan, comparisons)},
                            {"bases", bases(plan, results)},
                            {"figure5", figure(figures, "figure5", {{"run", trajectory}})},

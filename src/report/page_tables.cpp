@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lore {
 
@@ -20,6 +21,29 @@ HtmlCell if_any(std::vector<double> const& balls, Function const& text) {
     return balls.empty() ? HtmlCell{""} : HtmlCell{text(balls)};
 }
 
+/// Columns for rows with `balls`, those of runs at their end.
+template <class Row>
+void add_statistics(std::vector<HtmlColumn<Row>>& columns) {
+    columns.push_back(
+        {"mean", [](Row const& r) { return if_any(r.balls, [](auto const& b) { return two_decimals(mean(b)); }); }});
+    columns.push_back({"sd", [](Row const& r) {
+                           return if_any(r.balls, [](auto const& b) { return two_decimals(standard_deviation(b)); });
+                       }});
+    std::vector<std::pair<std::string, double>> const quantiles{
+        {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
+    for (auto const& [heading, fraction] : quantiles)
+        columns.push_back({heading, [at = fraction](Row const& r) {
+                               return if_any(r.balls,
+                                             [&](auto const& b) { return fmt::format("{}", quantile(b, at)); });
+                           }});
+}
+
+std::string labels_of(CampaignPlan const& plan, std::vector<std::string> const& treatments) {
+    std::vector<std::string> labels;
+    for (std::string const& name : treatments) labels.push_back(plan.treatment(name).label);
+    return fmt::format("{}", fmt::join(labels, ", "));
+}
+
 }   // namespace
 
 std::string treatments_table(CampaignPlan const& plan, Results const& results) {
@@ -31,22 +55,27 @@ std::string treatments_table(CampaignPlan const& plan, Results const& results) {
     for (std::string const& name : plan.report_order)
         rows.push_back({&plan.treatment(name), results.final_balls(name)});
 
-    std::vector<HtmlColumn<Row>> columns{
-        {"treatment", [](Row const& r) { return r.treatment->label; }, true},
-        {"runs", [](Row const& r) { return std::to_string(r.balls.size()); }},
-        {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }},
-        {"mean", [](Row const& r) { return if_any(r.balls, [](auto const& b) { return two_decimals(mean(b)); }); }},
-        {"sd", [](Row const& r) {
-             return if_any(r.balls, [](auto const& b) { return two_decimals(standard_deviation(b)); });
-         }}};
-    std::vector<std::pair<std::string, double>> const quantiles{
-        {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
-    for (auto const& [heading, fraction] : quantiles)
-        columns.push_back({heading, [at = fraction](Row const& r) {
-                               return if_any(r.balls,
-                                             [&](auto const& b) { return fmt::format("{}", quantile(b, at)); });
-                           }});
+    std::vector<HtmlColumn<Row>> columns{{"treatment", [](Row const& r) { return r.treatment->label; }, true},
+                                         {"runs", [](Row const& r) { return std::to_string(r.balls.size()); }},
+                                         {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }}};
+    add_statistics(columns);
     return html_table("treatments", columns, rows);
+}
+
+std::string pools_table(CampaignPlan const& plan, Results const& results) {
+    struct Row {
+        PoolPlan const* pool;
+        std::vector<double> balls;
+    };
+    std::vector<Row> rows;
+    for (PoolPlan const& pool : plan.pools) rows.push_back({&pool, balls_of(plan, results, pool.name)});
+
+    std::vector<HtmlColumn<Row>> columns{
+        {"pool", [](Row const& r) { return r.pool->label; }, true},
+        {"treatments", [&](Row const& r) { return labels_of(plan, r.pool->treatments); }, true},
+        {"runs", [](Row const& r) { return std::to_string(r.balls.size()); }}};
+    add_statistics(columns);
+    return html_table("pools", columns, rows, Spacing::dense);
 }
 
 std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
@@ -78,12 +107,13 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
     return html + "</tbody></table></div>\n";
 }
 
-std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
+std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons, std::string_view id,
+                        Spacing spacing) {
     using Row = Comparison;
     auto const number = [](double value) { return fmt::format("{}", value); };
     std::vector<HtmlColumn<Row>> const columns{
-        {"a", [&](Row const& c) { return plan.treatment(c.a).label; }, true},
-        {"b", [&](Row const& c) { return plan.treatment(c.b).label; }, true},
+        {"a", [&](Row const& c) { return plan.label(c.a); }, true},
+        {"b", [&](Row const& c) { return plan.label(c.b); }, true},
         {"n a", [](Row const& c) { return std::to_string(c.n_a); }},
         {"n b", [](Row const& c) { return std::to_string(c.n_b); }},
         {"U", [&](Row const& c) { return number(c.u); }},
@@ -104,7 +134,7 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
              return HtmlCell{fmt::format("{:.2f} .. {:.2f}", c.a12_band.low, c.a12_band.high), number(c.a12_band.low)};
          }},
         {"method", [](Row const& c) { return c.exact ? "exact" : "normal, ties"; }, true}};
-    return html_table("pairs", columns, comparisons);
+    return html_table(id, columns, comparisons, spacing);
 }
 
 std::string populations_table(CampaignPlan const& plan, Results const& results) {
@@ -127,25 +157,22 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
 
 std::string speeds_table(CampaignPlan const& plan, Results const& results) {
     using Row = SpeedRow;
-    auto const interval = [](double low, double high) { return HtmlCell{fmt::format("{:.0f} .. {:.0f}", low, high)}; };
+    // Intervals stand below their means: in columns of their own they make the table wider than the page.
+    auto const with_interval = [](double value, double low, double high) {
+        return HtmlCell{fmt::format("{:.0f}", value), fmt::format("{}", value),
+                        fmt::format("{:.0f} .. {:.0f}", low, high)};
+    };
     std::vector<HtmlColumn<Row>> columns{
         {"treatment", [&](Row const& s) { return plan.treatment(s.treatment).label; }, true},
         {"runs", [](Row const& s) { return std::to_string(s.runs); }}};
     for (std::size_t k = 0; k < timed_balls.size(); ++k) {
-        std::string const heading = fmt::format("to {}", timed_balls[k]);
-        columns.push_back({heading, [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].mean); }});
-        columns.push_back(
-            {"95 %", [=](Row const& s) {
-                 return HtmlCell{interval(s.to[k].low, s.to[k].high).shown, fmt::format("{}", s.to[k].low)};
-             }});
+        columns.push_back({fmt::format("to {}", timed_balls[k]),
+                           [=](Row const& s) { return with_interval(s.to[k].mean, s.to[k].low, s.to[k].high); }});
         columns.push_back({"median", [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].median); }});
         columns.push_back({"there", [=](Row const& s) { return std::to_string(s.to[k].reached); }});
     }
-    columns.push_back({"area", [](Row const& s) { return fmt::format("{:.0f}", s.area); }});
-    columns.push_back({"95 %", [=](Row const& s) {
-                           return HtmlCell{interval(s.area_low, s.area_high).shown, fmt::format("{}", s.area_low)};
-                       }});
-    return html_table("speeds", columns, results.speeds);
+    columns.push_back({"area", [=](Row const& s) { return with_interval(s.area, s.area_low, s.area_high); }});
+    return html_table("speeds", columns, results.speeds, Spacing::dense);
 }
 
 std::string leads_table(CampaignPlan const& plan, Results const& results) {

@@ -65,6 +65,13 @@ void write_figures(CampaignDirectory const& into, Figures const& figures) {
     }
 }
 
+/// A table of a former campaign's file that had pools would pass for this one's.
+void write_pools(CampaignPlan const& plan, CampaignDirectory const& into, std::vector<Comparison> const& planned) {
+    std::error_code ignored;   // it may not be there
+    if (!plan.pools.empty()) write_text(into, "pools.csv", pools_csv(planned));
+    else std::filesystem::remove(into.file("pools.csv"), ignored);
+}
+
 }   // namespace
 
 std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
@@ -87,9 +94,11 @@ std::string write_report(CampaignPlan const& plan, CampaignDirectory const& from
     auto const comparisons = compare_treatments(plan, results);
     Figures const figures = draw_figures(plan, results, comparisons);
     write_text(into, "pvalues.csv", comparisons_csv(comparisons));
-    write_text(into, "summary.json", summary_json(plan, results, comparisons));
+    auto const planned = compare_pools(plan, results);
+    write_pools(plan, into, planned);
+    write_text(into, "summary.json", summary_json(plan, results, comparisons, planned));
     write_figures(into, figures);
-    write_text(into, "report.html", report_page(plan, results, comparisons, figures));
+    write_text(into, "report.html", report_page(plan, results, comparisons, planned, figures));
     return what_is_missing(plan, results);
 }
 

@@ -120,11 +120,12 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
         std::size_t const line = page.find("<p>Runs: Lore");
         return line == std::string::npos ? page : page.erase(line, page.find('\n', line) - line);
     };
-    for (std::string const name : {"paper", "ties", "beyond", "saturation", "windows", "faster", "longer"}) {
+    for (std::string const name :
+         {"paper", "ties", "beyond", "saturation", "windows", "faster", "longer", "confirmation_500"}) {
         std::filesystem::path const kept = std::filesystem::path{LORE_SOURCE_DIR "/docs/results"} / name;
         write_report(read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/" + name + ".toml"), CampaignDirectory{kept},
                      directory(name));
-        for (char const* file : {"pvalues.csv", "summary.json"})
+        for (char const* file : {"pvalues.csv", "summary.json", "pools.csv"})   // pools.csv of the last alone
             EXPECT_EQ(made(file, name), read(kept / file)) << name << '/' << file;
         std::string const page = made("report.html", name);
         EXPECT_FALSE(page.empty());
@@ -136,6 +137,28 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
             }
         }
     }
+}
+
+TEST_F(Report, has_pools_where_the_campaign_has_them_and_nothing_of_them_else) {
+    std::string const without = read(scratch.file("campaign.toml"));
+    write("campaign.toml", without + "[[pool]]\nname = \"with\"\nlabel = \"with knowledge\"\n"
+                                     "treatments = [\"kb1\", \"all\"]\nagainst = [\"none\"]\n");
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_TRUE(made("pools.csv").starts_with("a,b,n_a,n_b,u,p,p_holm,a12,a12_low,a12_high\nwith,none,6,3,"));
+    EXPECT_EQ(rows("pools.csv"), 1);
+    EXPECT_NE(made("report.html").find(">with knowledge</td><td class=\"text\">KB1, all</td>"), std::string::npos);
+    EXPECT_NE(made("report.html").find("id=\"planned\""), std::string::npos);
+    EXPECT_NE(made("summary.json").find("\"planned\""), std::string::npos);
+    std::string const pairs = made("pvalues.csv");
+
+    write("campaign.toml", without);
+    write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/pools.csv")));
+    EXPECT_EQ(made("pvalues.csv"), pairs) << "pools change nothing else";
+    for (char const* word : {"Pooled", "id=\"planned\"", "<!--"})
+        EXPECT_EQ(made("report.html").find(word), std::string::npos) << word;
+    EXPECT_EQ(made("summary.json").find("\"pools\""), std::string::npos);
 }
 
 TEST_F(Report, needs_no_more_than_the_final_balls_and_the_curves) {
