@@ -181,6 +181,8 @@ void read_pools(TomlTable const& document, CampaignPlan& plan) {
             table.fail("treatments", "it must name one treatment or more, each once");
         pool.against = table.strings("against").value_or(Names{});
         for (std::string const& name : pool.against) require_known(table, "against", name, comparable);
+        if (std::set<std::string>(pool.against.begin(), pool.against.end()).size() != pool.against.size())
+            table.fail("against", "it names one twice", "Name each once.");
         check_against(table, pool, plan);
         table.reject_unknown();
         names.push_back(pool.name);

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the two files that describe the others [bytes].
+/// Of all files together that describe others [bytes]; they are kept in memory.
 constexpr std::uint64_t most_description = std::uint64_t{256} << 20;
 
 /// What is there, by path below the root of the crate.
@@ -33,6 +33,7 @@ struct Found {
     std::map<std::string, FileSum> files;
     std::map<std::string, std::string> texts;   ///< of the two files that describe the others
     std::vector<std::string> defects;
+    std::uint64_t bytes_of_texts = 0;
     std::string prefix;   ///< of the root in an archive: "", or "folder/"
 };
 
@@ -74,7 +75,8 @@ void add_entry(ArchiveEntry const& entry, Found& found) {
         sum.update(piece);
         bytes += piece.size();
         if (!describes(name)) return;
-        if (bytes > most_description)
+        found.bytes_of_texts += piece.size();
+        if (found.bytes_of_texts > most_description)
             throw Error(fmt::format("cannot read {}", name), "it is too long", "Take a copy that is whole.");
         text.append(reinterpret_cast<char const*>(piece.data()), piece.size());
     });

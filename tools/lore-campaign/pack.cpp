@@ -3,6 +3,7 @@
 #include <lore/campaign/plan.h>
 #include <lore/campaign/stop_signals.h>
 #include <lore/interchange/verify_pack.h>
+#include <lore/watch/text_view.h>
 
 namespace lore::campaign_program {
 
@@ -64,7 +65,7 @@ ExitCode verify_archive(Arguments const& arguments) {
                        verdict.left_out);
         return ExitCode::done;
     }
-    for (std::string const& defect : verdict.defects) write_stderr(defect + "\n");
+    for (std::string const& defect : verdict.defects) write_stderr(harmless(defect) + "\n");
     throw Error(
         fmt::format("{} is not whole", arguments.file),
         fmt::format("{} defect{}, in the lines above", verdict.defects.size(), verdict.defects.size() == 1 ? "" : "s"),

@@ -134,6 +134,8 @@ TEST_F(Campaign, takes_treatments_together_in_pools) {
     EXPECT_NE(refused(table("with", "treatments = [\"source\"]")).find("no 'source' before"), std::string::npos);
     EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nagainst = [\"all\"]")).find("with itself"),
               std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nagainst = [\"none\", \"none\"]")).find("one twice"),
+              std::string::npos);
     EXPECT_NE(refused(pool + table("again", "treatments = [\"kb1\"]\nagainst = [\"with\"]")).find("'kb1' would be"),
               std::string::npos);
     EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nversus = [\"none\"]")).find("versus"), std::string::npos);
