@@ -153,6 +153,44 @@ void read_treatments(TomlTable const& document, Defaults const& defaults, Campai
     }
 }
 
+void check_against(TomlTable const& table, PoolPlan const& pool, CampaignPlan const& plan) {
+    for (std::string const& other : pool.against) {
+        PoolPlan const* const of_others = plan.pool(other);
+        Names const others = of_others == nullptr ? Names{other} : of_others->treatments;
+        for (std::string const& name : others)
+            if (std::find(pool.treatments.begin(), pool.treatments.end(), name) != pool.treatments.end())
+                table.fail("against", fmt::format("'{}' would be compared with itself", name),
+                           "Name other treatments.");
+    }
+}
+
+void read_pools(TomlTable const& document, CampaignPlan& plan) {
+    Names treatments;
+    for (Treatment const& treatment : plan.targets) treatments.push_back(treatment.name);
+    Names comparable = treatments, names = treatments;
+    names.push_back(plan.source.name);
+    for (TomlTable const& table : document.tables("pool")) {
+        PoolPlan pool;
+        pool.name = read_name(table);
+        require_new(table, pool.name, names);
+        pool.label = table.string("label").value_or(pool.name);
+        pool.treatments = table.strings("treatments").value_or(Names{});
+        for (std::string const& name : pool.treatments) require_known(table, "treatments", name, treatments);
+        std::set<std::string> const different(pool.treatments.begin(), pool.treatments.end());
+        if (different.empty() || different.size() != pool.treatments.size())
+            table.fail("treatments", "it must name one treatment or more, each once");
+        pool.against = table.strings("against").value_or(Names{});
+        for (std::string const& name : pool.against) require_known(table, "against", name, comparable);
+        if (std::set<std::string>(pool.against.begin(), pool.against.end()).size() != pool.against.size())
+            table.fail("against", "it names one twice", "Name each once.");
+        check_against(table, pool, plan);
+        table.reject_unknown();
+        names.push_back(pool.name);
+        comparable.push_back(pool.name);
+        plan.pools.push_back(std::move(pool));
+    }
+}
+
 Names read_order(TomlTable const& table, Names const& treatments) {
     auto order = table.strings("order");
     if (!order) return treatments;
@@ -231,6 +269,16 @@ KnowledgePlan const& built_base(CampaignPlan const& plan, KnowledgePlan const& k
     return row_of(knowledge.kind).is_built ? knowledge : built_base(plan, plan.knowledge_base(knowledge.base));
 }
 
+PoolPlan const* CampaignPlan::pool(std::string_view name) const {
+    auto const found = std::find_if(pools.begin(), pools.end(), [&](PoolPlan const& p) { return p.name == name; });
+    return found == pools.end() ? nullptr : &*found;
+}
+
+std::string const& CampaignPlan::label(std::string_view name) const {
+    PoolPlan const* const found = pool(name);
+    return found == nullptr ? treatment(name).label : found->label;
+}
+
 std::string CampaignPlan::config_path(Treatment const& treatment) const {
     return (std::filesystem::path{directory} / treatment.config).lexically_normal().string();
 }
@@ -249,6 +297,7 @@ CampaignPlan read_campaign(std::string const& named) {
     read_source(document, defaults, plan);
     read_knowledge_bases(document, plan);
     read_treatments(document, defaults, plan);
+    read_pools(document, plan);
     read_report(document, plan);
     read_cluster(document, plan);
     document.reject_unknown();

@@ -9,6 +9,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lore {
 
@@ -22,9 +23,10 @@ public:
     Channels const& of(Treatment const& treatment) {
         std::string const path = plan_.config_path(treatment);
         ExperimentConfig const config = read_config(path, treatment.overrides);
-        std::string const key = config.has_world() ? fmt::format("{}\n{}\n{}", config.world.folder, config.world.name,
-                                                                 config.world.settings)
-                                                   : fmt::format("\n{}\n{}", config.arena, config.task);
+        std::string const key = config.has_world()
+                                    ? fmt::format("{}\n{}\n{}\n{}", config.world.folder, config.world.name,
+                                                  fmt::join(config.world.process, "\n"), config.world.settings)
+                                    : fmt::format("\n{}\n{}", config.arena, config.task);
         auto const known = channels_.find(key);
         if (known != channels_.end()) return known->second;
         try {

@@ -47,7 +47,7 @@ Origin origin_of(std::string const& from, int count, std::uint64_t seed) {
 }   // namespace
 
 std::string absolute_path(std::string const& path) {
-    return std::filesystem::absolute(path).lexically_normal().string();
+    return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal().string();
 }
 
 std::string founders_path(std::string const& from) {

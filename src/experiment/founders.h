@@ -8,7 +8,7 @@
 
 namespace lore {
 
-/// As founders.from is kept: a run may be resumed from another directory.
+/// As founders.from and the world's place are kept: a run may be resumed from another directory. "": the present one.
 std::string absolute_path(std::string const& path);
 /// The file behind the setting founders.from: the lineage.lore of a run's directory, or the founders file or knowledge
 /// base itself.

@@ -3,6 +3,8 @@
 #include <lore/collectball/collectball.h>
 #include <lore/core/error.h>
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 namespace lore {
@@ -24,6 +26,12 @@ void refuse_settings_of_collectball(ExperimentConfig const& config) {
 }   // namespace
 
 std::string arena_text_of(ExperimentConfig const& config) { return config.has_world() ? "" : arena_text(config.arena); }
+
+std::vector<std::string> world_files(ExperimentConfig const& config) {
+    if (config.has_world()) return files_of(config.world, {&collectball_world, 1});
+    // Else the name of an arena that is built in.
+    return std::filesystem::is_regular_file(config.arena) ? std::vector{config.arena} : std::vector<std::string>{};
+}
 
 RunWorld open_run_world(ExperimentConfig const& config, std::string_view arena_text) {
     if (!config.has_world())

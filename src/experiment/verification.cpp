@@ -57,10 +57,13 @@ std::string verify_container(std::string const& path) {
     throw Error(fmt::format("cannot verify {}", path), "its kind is unknown", "Update Lore.");
 }
 
-std::string verify_manifest(std::string const& path) {
+using Lacks = std::function<bool(std::string const& path)>;
+
+std::string verify_manifest(std::string const& path, Lacks const& lacks) {
     Manifest const manifest = read_manifest(path);
     std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
     for (FileRecord const& output : manifest.outputs) {
+        if (lacks((directory / output.path).string())) continue;
         if (!std::filesystem::exists(directory / output.path))
             throw Error(fmt::format("{} is missing", (directory / output.path).string()),
                         fmt::format("{} lists it", path), "Resume the run, or take a copy that is whole.");
@@ -106,7 +109,7 @@ std::string verify_table(std::string const& path) {
                 "Take a copy that is whole.");
 }
 
-std::string verify_directory(std::string const& path) {
+std::string verify_directory(std::string const& path, Lacks const& lacks) {
     constexpr std::array always{run_file::config, run_file::manifest};
     constexpr std::array known{run_file::config,           run_file::arena,           run_file::progress,
                                run_file::lineage,          run_file::all_individuals, run_file::checkpoint,
@@ -122,7 +125,7 @@ std::string verify_directory(std::string const& path) {
     std::vector<std::string> whole;
     for (char const* const file : known) {
         if (!is_there(file)) continue;
-        verify((std::filesystem::path{path} / file).string());
+        verify((std::filesystem::path{path} / file).string(), lacks);
         whole.emplace_back(file);
     }
     return fmt::format("run directory with {}", fmt::join(whole, ", "));
@@ -131,11 +134,15 @@ std::string verify_directory(std::string const& path) {
 }   // namespace
 
 std::string verify(std::string const& path) {
+    return verify(path, [](std::string const&) { return false; });
+}
+
+std::string verify(std::string const& path, Lacks const& lacks) {
     std::filesystem::path const file{path};
-    if (std::filesystem::is_directory(file)) return verify_directory(path);
+    if (std::filesystem::is_directory(file)) return verify_directory(path, lacks);
     if (file.extension() == ".npy")
         return fmt::format("NPY array of shape ({})", fmt::join(read_npy(path).shape, ", "));
-    if (file.filename() == run_file::manifest) return verify_manifest(path);
+    if (file.filename() == run_file::manifest) return verify_manifest(path, lacks);
     if (file.filename() == run_file::config) {
         read_config(path);
         return "configuration of a run";

@@ -4,6 +4,7 @@
 #include <lore/statistics/mann_whitney.h>
 #include <lore/statistics/quantiles.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,6 +14,13 @@ namespace lore {
 
 namespace {
 
+Comparison compared(std::string const& a, std::string const& b, std::vector<double> const& first,
+                    std::vector<double> const& second) {
+    MannWhitney const test = mann_whitney(first, second);
+    return {a,      b,      static_cast<int>(first.size()),    static_cast<int>(second.size()), test.u,
+            test.p, test.p, vargha_delaney_a12(first, second), bootstrap_a12(first, second),    test.exact};
+}
+
 using Json = nlohmann::ordered_json;
 
 /// Whole numbers without a decimal point.
@@ -21,26 +29,99 @@ Json number(double reward) {
     return reward;
 }
 
+Json json_of(std::vector<Comparison> const& comparisons) {
+    Json list = Json::array();
+    for (Comparison const& c : comparisons)
+        list.push_back({{"a", c.a},
+                        {"b", c.b},
+                        {"n_a", c.n_a},
+                        {"n_b", c.n_b},
+                        {"u", c.u},
+                        {"p", c.p},
+                        {"p_holm", c.p_holm},
+                        {"a12", c.a12},
+                        {"a12_low", c.a12_band.low},
+                        {"a12_high", c.a12_band.high},
+                        {"exact", c.exact}});
+    return list;
+}
+
+/// Precondition: there are some.
+void describe_rewards(std::vector<double> const& rewards, Json& entry) {
+    entry["mean"] = mean(rewards);
+    entry["standard_deviation"] = standard_deviation(rewards);
+    entry["least"] = quantile(rewards, 0);
+    entry["lower_quartile"] = quantile(rewards, 0.25);
+    entry["median"] = quantile(rewards, 0.5);
+    entry["upper_quartile"] = quantile(rewards, 0.75);
+    entry["most"] = quantile(rewards, 1);
+}
+
+/// A campaign without pools has a summary without them.
+void add_pools(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& planned,
+               Json& document) {
+    if (plan.pools.empty()) return;
+    document["pools"] = Json::array();
+    for (PoolPlan const& pool : plan.pools) {
+        auto const rewards = rewards_of(plan, results, pool.name);
+        Json entry{
+            {"pool", pool.name}, {"label", pool.label}, {"treatments", pool.treatments}, {"runs", rewards.size()}};
+        if (!rewards.empty()) describe_rewards(rewards, entry);
+        document["pools"].push_back(std::move(entry));
+    }
+    document["planned"] = json_of(planned);
+}
+
+/// Of all of these together.
+void correct(std::vector<Comparison>& comparisons) {
+    std::vector<double> p_values;
+    for (Comparison const& comparison : comparisons) p_values.push_back(comparison.p);
+    std::vector<double> const adjusted = holm_adjusted(p_values);
+    for (std::size_t k = 0; k < comparisons.size(); ++k) comparisons[k].p_holm = adjusted[k];
+}
+
 }   // namespace
 
 std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results const& results) {
     std::vector<Comparison> comparisons;
-    std::vector<double> p_values;
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
         for (std::size_t j = i + 1; j < plan.report_order.size(); ++j) {
             std::string const &a = plan.report_order[i], &b = plan.report_order[j];
             auto const first = results.final_rewards(a), second = results.final_rewards(b);
-            if (first.empty() || second.empty()) continue;
-            MannWhitney const test = mann_whitney(first, second);
-            comparisons.push_back({a, b, static_cast<int>(first.size()), static_cast<int>(second.size()), test.u,
-                                   test.p, test.p, vargha_delaney_a12(first, second), bootstrap_a12(first, second),
-                                   test.exact});
-            p_values.push_back(test.p);
+            if (!first.empty() && !second.empty()) comparisons.push_back(compared(a, b, first, second));
         }
     }
-    std::vector<double> const adjusted = holm_adjusted(p_values);
-    for (std::size_t k = 0; k < comparisons.size(); ++k) comparisons[k].p_holm = adjusted[k];
+    correct(comparisons);
     return comparisons;
+}
+
+std::vector<double> rewards_of(CampaignPlan const& plan, Results const& results, std::string_view name) {
+    PoolPlan const* const pool = plan.pool(name);
+    if (pool == nullptr) return results.final_rewards(name);
+    std::vector<double> rewards;
+    for (RunRow const& run : results.runs)
+        if (std::find(pool->treatments.begin(), pool->treatments.end(), run.treatment) != pool->treatments.end())
+            rewards.push_back(run.reward);
+    return rewards;
+}
+
+std::vector<Comparison> compare_pools(CampaignPlan const& plan, Results const& results) {
+    std::vector<Comparison> comparisons;
+    for (PoolPlan const& pool : plan.pools)
+        for (std::string const& other : pool.against) {
+            auto const first = rewards_of(plan, results, pool.name), second = rewards_of(plan, results, other);
+            if (!first.empty() && !second.empty()) comparisons.push_back(compared(pool.name, other, first, second));
+        }
+    correct(comparisons);
+    return comparisons;
+}
+
+std::string pools_csv(std::vector<Comparison> const& comparisons) {
+    std::string text = "a,b,n_a,n_b,u,p,p_holm,a12,a12_low,a12_high\n";
+    for (Comparison const& c : comparisons)
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", c.a, c.b, c.n_a, c.n_b, c.u, c.p, c.p_holm, c.a12,
+                            c.a12_band.low, c.a12_band.high);
+    return text;
 }
 
 std::string comparisons_csv(std::vector<Comparison> const& comparisons) {
@@ -50,7 +131,8 @@ std::string comparisons_csv(std::vector<Comparison> const& comparisons) {
     return text;
 }
 
-std::string summary_json(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+std::string summary_json(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
+                         std::vector<Comparison> const& planned) {
     std::string const word{results.reward_word()};
     Json document;
     document["title"] = plan.title;
@@ -61,13 +143,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
         auto const rewards = results.final_rewards(treatment.name);
         entry["runs"] = rewards.size();
         if (rewards.empty()) return entry;
-        entry["mean"] = mean(rewards);
-        entry["standard_deviation"] = standard_deviation(rewards);
-        entry["least"] = quantile(rewards, 0);
-        entry["lower_quartile"] = quantile(rewards, 0.25);
-        entry["median"] = quantile(rewards, 0.5);
-        entry["upper_quartile"] = quantile(rewards, 0.75);
-        entry["most"] = quantile(rewards, 1);
+        describe_rewards(rewards, entry);
         for (SpeedRow const& speed : results.speeds) {
             if (speed.treatment != treatment.name) continue;
             Json& times = entry["time_to_" + word] = Json::array();
@@ -99,19 +175,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
     }
     document["complete"] = complete;
 
-    document["comparisons"] = Json::array();
-    for (Comparison const& c : comparisons)
-        document["comparisons"].push_back({{"a", c.a},
-                                           {"b", c.b},
-                                           {"n_a", c.n_a},
-                                           {"n_b", c.n_b},
-                                           {"u", c.u},
-                                           {"p", c.p},
-                                           {"p_holm", c.p_holm},
-                                           {"a12", c.a12},
-                                           {"a12_low", c.a12_band.low},
-                                           {"a12_high", c.a12_band.high},
-                                           {"exact", c.exact}});
+    document["comparisons"] = json_of(comparisons);
     document["knowledge"] = Json::array();
     for (KnowledgeRow const& base : results.bases)
         document["knowledge"].push_back({{"knowledge", base.knowledge},
@@ -126,6 +190,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"greatest_value", base.greatest_value},
                                          {"at_greatest", base.at_greatest},
                                          {"shown_once", base.shown_once}});
+    add_pools(plan, results, planned, document);
     if (results.leads.empty()) return document.dump(2) + "\n";
     document["leads"] = Json::array();
     for (LeadRow const& lead : results.leads)

@@ -24,8 +24,17 @@ struct Comparison {
 std::vector<Comparison> compare_treatments(CampaignPlan const&, Results const&);
 std::string comparisons_csv(std::vector<Comparison> const&);
 
+/// The comparisons that the campaign's pools name, in their order; p_holm is corrected over these alone.
+std::vector<Comparison> compare_pools(CampaignPlan const&, Results const&);
+/// pools.csv: the same columns, and the bounds of A12's interval.
+std::string pools_csv(std::vector<Comparison> const&);
+/// Rewards at the end of all runs of a treatment or a pool, in the order of final.csv.
+std::vector<double> rewards_of(CampaignPlan const&, Results const&, std::string_view name);
+
 /// summary.json: what each treatment reached and how they compare, for programs.
-std::string summary_json(CampaignPlan const&, Results const&, std::vector<Comparison> const&);
+/// `planned`: those of compare_pools.
+std::string summary_json(CampaignPlan const&, Results const&, std::vector<Comparison> const&,
+                         std::vector<Comparison> const& planned = {});
 
 /// The paper's marks: "**" for p < 1e-3, "*" for p < 1e-2, else "".
 std::string_view significance_mark(double p);

@@ -59,7 +59,8 @@ std::string html_heading(std::string_view text, bool is_text) {
 
 std::string html_cell(HtmlCell const& cell, bool is_text) {
     std::string const value = cell.sorted_by.empty() ? "" : fmt::format(" data-value=\"{}\"", escaped(cell.sorted_by));
-    return fmt::format("<td{}{}>{}</td>", is_text ? " class=\"text\"" : "", value, escaped(cell.shown));
+    std::string const below = cell.below.empty() ? "" : fmt::format("<br><small>{}</small>", escaped(cell.below));
+    return fmt::format("<td{}{}>{}{}</td>", is_text ? " class=\"text\"" : "", value, escaped(cell.shown), below);
 }
 
 }   // namespace lore

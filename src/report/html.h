@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -23,7 +24,10 @@ std::string filled(std::string_view block, Places const&);
 struct HtmlCell {
     HtmlCell(std::string text, std::string value = "") : shown(std::move(text)), sorted_by(std::move(value)) {}
     HtmlCell(char const* text) : shown(text) {}
+    HtmlCell(std::string text, std::string value, std::string second_line)
+        : shown(std::move(text)), sorted_by(std::move(value)), below(std::move(second_line)) {}
     std::string shown, sorted_by;
+    std::string below;   ///< in small letters under it, where a column of its own would make the table too wide
 };
 
 /// One column of a table whose rows are Row.
@@ -37,10 +41,16 @@ struct HtmlColumn {
 std::string html_heading(std::string_view text, bool is_text);
 std::string html_cell(HtmlCell const&, bool is_text);
 
+/// `dense`: columns stand closer and labels may take several lines, so that a wide table fits the page.
+enum class Spacing : std::uint8_t { usual, dense };
+
 /// A table whose headings sort it.
 template <class Row>
-std::string html_table(std::string_view id, std::vector<HtmlColumn<Row>> const& columns, std::vector<Row> const& rows) {
-    std::string html = "<div class=\"scroll\"><table class=\"sortable\" id=\"" + std::string{id} + "\"><thead><tr>";
+std::string html_table(std::string_view id, std::vector<HtmlColumn<Row>> const& columns, std::vector<Row> const& rows,
+                       Spacing spacing = Spacing::usual) {
+    std::string const dense = spacing == Spacing::dense ? " dense" : "";
+    std::string html =
+        "<div class=\"scroll\"><table class=\"sortable" + dense + "\" id=\"" + std::string{id} + "\"><thead><tr>";
     for (HtmlColumn<Row> const& column : columns) html += html_heading(column.heading, column.is_text);
     html += "</tr></thead><tbody>\n";
     for (Row const& row : rows) {

@@ -59,6 +59,21 @@ std::string significance(CampaignPlan const& plan, Results const& results, std::
                                    {"pairs", pairs_table(plan, comparisons)}});
 }
 
+std::string pools(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& planned) {
+    if (plan.pools.empty()) return "";
+    std::string const tests =
+        planned.empty() ? "" : filled("planned", {{"planned", pairs_table(plan, planned, "planned", Spacing::dense)}});
+    return filled("pools", {{"collected", escaped(capital(reward_words(results.reward_unit(plan)).collected))},
+                            {"pools", pools_table(plan, results)},
+                            {"planned", tests}});
+}
+
+/// A page without a dense table has the style of before there was one.
+std::string style(CampaignPlan const& plan, Results const& results) {
+    bool const plain = results.speeds.empty() && plan.pools.empty();
+    return std::string{report_css} + (plain ? "" : filled("dense", {}));
+}
+
 std::string bases(CampaignPlan const& plan, Results const& results) {
     return results.bases.empty()
                ? ""
@@ -116,9 +131,9 @@ int last_generation(Results const& results) {
 }   // namespace
 
 std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
-                        Figures const& figures) {
+                        std::vector<Comparison> const& planned, Figures const& figures) {
     RewardWords const words = reward_words(results.reward_unit(plan));
-    std::size_t const planned = planned_runs(plan);
+    std::size_t const runs = planned_runs(plan);
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
@@ -126,12 +141,12 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
     return filled(
         "page",
         {{"title", escaped(plan.title)},
-         {"css", std::string{report_css}},
+         {"css", style(plan, results)},
          {"js", std::string{report_js} + std::string{shows_worlds(results) ? world_replay_js : arena_replay_js}},
          {"finished", std::to_string(results.runs.size())},
-         {"planned", std::to_string(planned)},
+         {"planned", std::to_string(runs)},
          {"generation", std::to_string(last_generation(results))},
-         {"incomplete", results.runs.size() < planned ? filled("incomplete", {}) : ""},
+         {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
          {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
          {"collected", escaped(capital(words.collected))},
          {"treatments", treatments_table(plan, results)},
@@ -139,6 +154,7 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
           figure(figures, "figure3", {{"number_of", escaped(capital(words.number_of))}, {"source", words.source}})},
          {"figure4", figure(figures, "figure4", {{"collected", escaped(capital(words.collected))}})},
          {"speed", speeds(plan, results)},
+         {"pools", pools(plan, results, planned)},
          {"significance", significance(plan, results, comparisons)},
          {"bases", bases(plan, results)},
          {"figure5", figure(figures, "figure5",

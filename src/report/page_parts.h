@@ -1,6 +1,7 @@
 #pragma once
 
 #include "comparison.h"
+#include "html.h"
 #include "results.h"
 
 #include <string>
@@ -16,7 +17,10 @@ std::string speeds_table(CampaignPlan const&, Results const&);
 std::string leads_table(CampaignPlan const&, Results const&);
 std::string bases_table(CampaignPlan const&, Results const&);
 std::string runs_table(CampaignPlan const&, Results const&);
-std::string pairs_table(CampaignPlan const&, std::vector<Comparison> const&);
+/// `id` tells the page's tables apart.
+std::string pairs_table(CampaignPlan const&, std::vector<Comparison> const&, std::string_view id = "pairs",
+                        Spacing = Spacing::usual);
+std::string pools_table(CampaignPlan const&, Results const&);
 /// The appendix's square: every treatment against every other.
 std::string p_value_square(CampaignPlan const&, std::vector<Comparison> const&);
 

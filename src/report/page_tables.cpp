@@ -7,6 +7,7 @@
 #include <functional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lore {
 
@@ -27,6 +28,32 @@ std::function<std::string(double)> mean_text(Results const& results) {
     return [](double value) { return reward_text(value); };
 }
 
+/// Columns for rows with `rewards`, those of runs at their end.
+template <class Row>
+void add_statistics(std::vector<HtmlColumn<Row>>& columns, Results const& results) {
+    auto const shown = mean_text(results);
+    columns.push_back(
+        {"mean", [=](Row const& r) { return if_any(r.rewards, [&](auto const& all) { return shown(mean(all)); }); }});
+    columns.push_back({"sd", [=](Row const& r) {
+                           return if_any(r.rewards, [&](auto const& all) { return shown(standard_deviation(all)); });
+                       }});
+    std::vector<std::pair<std::string, double>> const quantiles{
+        {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
+    for (auto const& [heading, fraction] : quantiles)
+        columns.push_back({heading, [counts = results.are_counts(), at = fraction](Row const& r) {
+                               return if_any(r.rewards, [&](auto const& all) {
+                                   double const value = quantile(all, at);
+                                   return counts ? fmt::format("{}", value) : reward_text(value);
+                               });
+                           }});
+}
+
+std::string labels_of(CampaignPlan const& plan, std::vector<std::string> const& treatments) {
+    std::vector<std::string> labels;
+    for (std::string const& name : treatments) labels.push_back(plan.treatment(name).label);
+    return fmt::format("{}", fmt::join(labels, ", "));
+}
+
 }   // namespace
 
 std::string treatments_table(CampaignPlan const& plan, Results const& results) {
@@ -38,24 +65,27 @@ std::string treatments_table(CampaignPlan const& plan, Results const& results) {
     for (std::string const& name : plan.report_order)
         rows.push_back({&plan.treatment(name), results.final_rewards(name)});
 
-    bool const counts = results.are_counts();
-    auto const shown = mean_text(results);
-    std::vector<HtmlColumn<Row>> columns{
-        {"treatment", [](Row const& r) { return r.treatment->label; }, true},
-        {"runs", [](Row const& r) { return std::to_string(r.rewards.size()); }},
-        {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }},
-        {"mean", [&](Row const& r) { return if_any(r.rewards, [&](auto const& b) { return shown(mean(b)); }); }},
-        {"sd",
-         [&](Row const& r) { return if_any(r.rewards, [&](auto const& b) { return shown(standard_deviation(b)); }); }}};
-    std::vector<std::pair<std::string, double>> const quantiles{
-        {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
-    for (auto const& [heading, fraction] : quantiles)
-        columns.push_back({heading, [counts, at = fraction](Row const& r) {
-                               return if_any(r.rewards, [&](auto const& b) {
-                                   return counts ? fmt::format("{}", quantile(b, at)) : reward_text(quantile(b, at));
-                               });
-                           }});
+    std::vector<HtmlColumn<Row>> columns{{"treatment", [](Row const& r) { return r.treatment->label; }, true},
+                                         {"runs", [](Row const& r) { return std::to_string(r.rewards.size()); }},
+                                         {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }}};
+    add_statistics(columns, results);
     return html_table("treatments", columns, rows);
+}
+
+std::string pools_table(CampaignPlan const& plan, Results const& results) {
+    struct Row {
+        PoolPlan const* pool;
+        std::vector<double> rewards;
+    };
+    std::vector<Row> rows;
+    for (PoolPlan const& pool : plan.pools) rows.push_back({&pool, rewards_of(plan, results, pool.name)});
+
+    std::vector<HtmlColumn<Row>> columns{
+        {"pool", [](Row const& r) { return r.pool->label; }, true},
+        {"treatments", [&](Row const& r) { return labels_of(plan, r.pool->treatments); }, true},
+        {"runs", [](Row const& r) { return std::to_string(r.rewards.size()); }}};
+    add_statistics(columns, results);
+    return html_table("pools", columns, rows, Spacing::dense);
 }
 
 std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
@@ -87,12 +117,13 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
     return html + "</tbody></table></div>\n";
 }
 
-std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons) {
+std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const& comparisons, std::string_view id,
+                        Spacing spacing) {
     using Row = Comparison;
     auto const number = [](double value) { return fmt::format("{}", value); };
     std::vector<HtmlColumn<Row>> const columns{
-        {"a", [&](Row const& c) { return plan.treatment(c.a).label; }, true},
-        {"b", [&](Row const& c) { return plan.treatment(c.b).label; }, true},
+        {"a", [&](Row const& c) { return plan.label(c.a); }, true},
+        {"b", [&](Row const& c) { return plan.label(c.b); }, true},
         {"n a", [](Row const& c) { return std::to_string(c.n_a); }},
         {"n b", [](Row const& c) { return std::to_string(c.n_b); }},
         {"U", [&](Row const& c) { return number(c.u); }},
@@ -113,7 +144,7 @@ std::string pairs_table(CampaignPlan const& plan, std::vector<Comparison> const&
              return HtmlCell{fmt::format("{:.2f} .. {:.2f}", c.a12_band.low, c.a12_band.high), number(c.a12_band.low)};
          }},
         {"method", [](Row const& c) { return c.exact ? "exact" : "normal, ties"; }, true}};
-    return html_table("pairs", columns, comparisons);
+    return html_table(id, columns, comparisons, spacing);
 }
 
 std::string populations_table(CampaignPlan const& plan, Results const& results) {
@@ -140,30 +171,28 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
 
 std::string speeds_table(CampaignPlan const& plan, Results const& results) {
     using Row = SpeedRow;
-    auto const interval = [](double low, double high) { return HtmlCell{fmt::format("{:.0f} .. {:.0f}", low, high)}; };
-    auto const area = [&, counts = results.are_counts()](double value) {
+    auto const area_text = [counts = results.are_counts()](double value) {
         return counts ? fmt::format("{:.0f}", value) : reward_text(value);
+    };
+    // Intervals stand below their means: in columns of their own they make the table wider than the page.
+    auto const with_interval = [](double value, double low, double high, auto const& text) {
+        return HtmlCell{text(value), fmt::format("{}", value), fmt::format("{} .. {}", text(low), text(high))};
     };
     std::vector<HtmlColumn<Row>> columns{
         {"treatment", [&](Row const& s) { return plan.treatment(s.treatment).label; }, true},
         {"runs", [](Row const& s) { return std::to_string(s.runs); }}};
+    auto const whole = [](double value) { return fmt::format("{:.0f}", value); };
     std::size_t const levels = results.speeds.empty() ? 0 : results.speeds.front().to.size();
     for (std::size_t k = 0; k < levels; ++k) {
-        std::string const heading = fmt::format("to {}", reward_text(results.speeds.front().to[k].level));
-        columns.push_back({heading, [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].mean); }});
-        columns.push_back(
-            {"95 %", [=](Row const& s) {
-                 return HtmlCell{interval(s.to[k].low, s.to[k].high).shown, fmt::format("{}", s.to[k].low)};
-             }});
-        columns.push_back({"median", [=](Row const& s) { return fmt::format("{:.0f}", s.to[k].median); }});
+        columns.push_back({fmt::format("to {}", reward_text(results.speeds.front().to[k].level)), [=](Row const& s) {
+                               return with_interval(s.to[k].mean, s.to[k].low, s.to[k].high, whole);
+                           }});
+        columns.push_back({"median", [=](Row const& s) { return whole(s.to[k].median); }});
         columns.push_back({"there", [=](Row const& s) { return std::to_string(s.to[k].reached); }});
     }
-    columns.push_back({"area", [&](Row const& s) { return area(s.area); }});
-    columns.push_back({"95 %", [=](Row const& s) {
-                           return HtmlCell{fmt::format("{} .. {}", area(s.area_low), area(s.area_high)),
-                                           fmt::format("{}", s.area_low)};
-                       }});
-    return html_table("speeds", columns, results.speeds);
+    columns.push_back(
+        {"area", [=](Row const& s) { return with_interval(s.area, s.area_low, s.area_high, area_text); }});
+    return html_table("speeds", columns, results.speeds, Spacing::dense);
 }
 
 std::string leads_table(CampaignPlan const& plan, Results const& results) {

@@ -37,6 +37,23 @@ void check_names(CampaignPlan const& plan, Results const& results) {
         check_treatment("replay.csv", std::string_view{replay.run}.substr(0, replay.run.find('/')));
 }
 
+/// Numbers of different units cannot be taken together.
+void check_pools(CampaignPlan const& plan, Results const& results) {
+    for (PoolPlan const& pool : plan.pools) {
+        std::string const* first = nullptr;
+        for (RunRow const& run : results.runs) {
+            if (std::find(pool.treatments.begin(), pool.treatments.end(), run.treatment) == pool.treatments.end())
+                continue;
+            if (first == nullptr) first = &run.reward_unit;
+            if (run.reward_unit != *first)
+                throw UsageError(fmt::format("{}: pool '{}' cannot be reported", plan.path, pool.name),
+                                 fmt::format("some of its rewards are {}, and those of '{}' {}", *first, run.treatment,
+                                             run.reward_unit),
+                                 "Pool treatments of one unit.");
+        }
+    }
+}
+
 void write_text(CampaignDirectory const& into, std::string_view name, std::string const& text) {
     write_file_atomically(into.file(name), std::string_view{text});
 }
@@ -65,6 +82,13 @@ void write_figures(CampaignDirectory const& into, Figures const& figures) {
     }
 }
 
+/// A table of a former campaign's file that had pools would pass for this one's.
+void write_pools(CampaignPlan const& plan, CampaignDirectory const& into, std::vector<Comparison> const& planned) {
+    std::error_code ignored;   // it may not be there
+    if (!plan.pools.empty()) write_text(into, "pools.csv", pools_csv(planned));
+    else std::filesystem::remove(into.file("pools.csv"), ignored);
+}
+
 }   // namespace
 
 std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
@@ -84,12 +108,15 @@ std::string write_report(CampaignPlan const& plan, CampaignDirectory const& from
     if (has_runs) write_results(into, collect_results(plan, from));
     Results const results = read_results(has_runs ? into : from);
     check_names(plan, results);
+    check_pools(plan, results);
     auto const comparisons = compare_treatments(plan, results);
     Figures const figures = draw_figures(plan, results, comparisons);
     write_text(into, "pvalues.csv", comparisons_csv(comparisons));
-    write_text(into, "summary.json", summary_json(plan, results, comparisons));
+    auto const planned = compare_pools(plan, results);
+    write_pools(plan, into, planned);
+    write_text(into, "summary.json", summary_json(plan, results, comparisons, planned));
     write_figures(into, figures);
-    write_text(into, "report.html", report_page(plan, results, comparisons, figures));
+    write_text(into, "report.html", report_page(plan, results, comparisons, planned, figures));
     return what_is_missing(plan, results);
 }
 

@@ -46,6 +46,15 @@ bool is_file(fs::path const& path) {
     return fs::is_regular_file(path, ignored);
 }
 
+/// Null for a name that is of none of them.
+BuiltinWorld const* builtin_of(std::string const& name, std::span<BuiltinWorld const> builtins) {
+    if (name.find('/') != std::string::npos) return nullptr;
+    auto const found = std::find_if(builtins.begin(), builtins.end(), [&](BuiltinWorld const& builtin) {
+        return builtin.name == std::string_view{name}.substr(0, name.find(':'));
+    });
+    return found == builtins.end() ? nullptr : &*found;
+}
+
 OpenedWorld open_builtin(BuiltinWorld const& builtin, WorldRequest const& request, std::string const& task) {
     return {{"", 0, 0, request.settings}, builtin.open(task, request.settings)};
 }
@@ -126,15 +135,19 @@ std::string find_library(std::string const& name, std::string const& folder) {
                      "Compile it, give its path with a '/', or name its folder in LORE_WORLD_PATH.");
 }
 
+std::vector<std::string> files_of(WorldRequest const& request, std::span<BuiltinWorld const> builtins) {
+    if (!request.process.empty()) return files_of(request.process, request.folder);
+    if (builtin_of(request.name, builtins) != nullptr) return {};
+    return {find_library(request.name, request.folder)};
+}
+
 OpenedWorld open_world(WorldRequest const& request, std::span<BuiltinWorld const> builtins) {
     if (!request.process.empty()) return open_process(request);
     std::size_t const colon = request.name.find(':');
-    std::string const name = request.name.substr(0, colon);
+    if (BuiltinWorld const* const builtin = builtin_of(request.name, builtins))
+        return open_builtin(*builtin, request, colon == std::string::npos ? "" : request.name.substr(colon + 1));
     bool const is_path = request.name.find('/') != std::string::npos;
-    for (BuiltinWorld const& builtin : builtins)
-        if (!is_path && builtin.name == name)
-            return open_builtin(builtin, request, colon == std::string::npos ? "" : request.name.substr(colon + 1));
-    if (!is_path && colon != std::string::npos) refuse_builtin(name, builtins);
+    if (!is_path && colon != std::string::npos) refuse_builtin(request.name.substr(0, colon), builtins);
     std::string const file = find_library(request.name, request.folder);
     WorldOrigin origin{file, checksum_of_file(file), open_regular(file).size, request.settings};
     return {std::move(origin), load_world(file, request.settings)};

@@ -27,6 +27,8 @@ DOORS = {
     r"zstd.*": ["archive"],
     r"zlib\.h": ["collectball/trace_file.cpp"],
     r"xxhash\.h": ["archive", "core/checksum.cpp"],
+    r"archive(_entry)?\.h": ["interchange/archive_file.cpp"],
+    r"nettle/.*": ["interchange/sha256.cpp"],
     r"dlfcn\.h": ["world/library.cpp"],
     r"lore/world\.h": ["world"],
     r"CLI/.*": ["tools"],

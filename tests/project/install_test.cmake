@@ -1,7 +1,6 @@
 # Installs the build into a scratch prefix, builds docs/examples/newcomers against it and runs it: it must evolve what
 # lore-evolve does. Then a world in C, compiled against the installed header, and one in Python: they keep their
-# contract.
-# The installed `lore` knows the installed jobs.
+# contract. The installed `lore` knows the installed jobs.
 set(scratch ${BUILD}/install-test)
 file(REMOVE_RECURSE ${scratch})
 

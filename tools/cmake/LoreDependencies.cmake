@@ -9,6 +9,8 @@ pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(rsvg REQUIRED IMPORTED_TARGET librsvg-2.0 cairo)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)   # FLANN's only need
+pkg_check_modules(libarchive REQUIRED IMPORTED_TARGET libarchive)
+pkg_check_modules(nettle REQUIRED IMPORTED_TARGET nettle)
 find_package(ZLIB REQUIRED)
 find_package(Boost 1.74 REQUIRED COMPONENTS serialization)
 find_package(MPI REQUIRED COMPONENTS CXX)

@@ -25,7 +25,7 @@ foreach(module ${modules})
 endforeach()
 list(JOIN MPI_CXX_LIBRARIES " " mpi_libraries)
 string(APPEND LORE_PC_LIBRARIES "-lboost_serialization ${mpi_libraries} -pthread -ldl")
-set(LORE_PC_REQUIRES "fmt tomlplusplus libzstd libxxhash liblz4 zlib librsvg-2.0 cairo")
+set(LORE_PC_REQUIRES "fmt tomlplusplus libzstd libxxhash liblz4 zlib librsvg-2.0 cairo libarchive nettle")
 file(RELATIVE_PATH LORE_PC_INCLUDES ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 configure_file(tools/package/lore.pc.in ${PROJECT_BINARY_DIR}/lore.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lore.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -38,8 +38,9 @@ install(DIRECTORY docs/examples/pendulum docs/examples/maze docs/examples/pusher
   docs/examples/newcomers DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples
   FILES_MATCHING PATTERN "*.c" PATTERN "*.cpp" PATTERN "*.toml" PATTERN CMakeLists.txt)
 # With the module that serves it: the folder can be copied.
-install(FILES docs/examples/cartpole/cartpole.py docs/examples/cartpole/source.toml docs/examples/cartpole/target.toml
-  tools/python/lore_world.py DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples/cartpole)
+install(DIRECTORY docs/examples/cartpole DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples
+  FILES_MATCHING PATTERN "cartpole.py" PATTERN "*.toml")
+install(FILES tools/python/lore_world.py DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples/cartpole)
 
 # Completion: bash looks for a file of the command's name, zsh for the first line of all files.
 set(LORE_BASH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

@@ -41,6 +41,11 @@ constexpr char help[] =
     "  lore-campaign report jobs/campaigns/paper.toml --dir runs/paper           runs/paper/report.html\n"
     "  lore-campaign status jobs/campaigns/paper.toml --dir runs/paper           how far it has come\n"
     "  lore-campaign watch  jobs/campaigns/paper.toml --dir runs/paper           the same in a browser, all the time\n"
+    "  lore-campaign events runs/paper --follow                                  what happens, as JSON Lines, for "
+    "trackers\n"
+    "  lore-campaign export jobs/campaigns/paper.toml --dir runs/paper --out ioh for IOHanalyzer\n"
+    "  lore-campaign pack   jobs/campaigns/paper.toml --dir runs/paper --out paper.tar.zst --license CC-BY-4.0\n"
+    "  lore-campaign verify paper.tar.zst                                        whether all of it is there and right\n"
     "  lore-campaign test   a.csv b.csv                                compare two columns of numbers\n\n"
     "Exit codes: 0 done, 1 something failed, 2 command line or campaign file, 75 interrupted: call it again.";
 
@@ -66,12 +71,13 @@ int start(int argc, char** argv) {
     app.fallthrough();
     app.add_flag("-q,--quiet", arguments.quiet, "say only what went wrong");
 
-    std::array const subcommands{&plan, &run, &submit, &report, &replay, &status, &watch, &test};
+    std::array const subcommands{&plan,  &run,    &submit,         &report, &replay, &status,
+                                 &watch, &events, &export_results, &pack,   &verify, &test};
     for (Subcommand const* const subcommand : subcommands)
         subcommand->add_options(*app.add_subcommand(subcommand->name, subcommand->description), arguments);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
-    refuse_run_directory(arguments.directory);
+    if (!app.got_subcommand(events.name)) refuse_run_directory(arguments.directory);   // events are of a run, too
     arguments.runner.launcher.campaign_program = std::filesystem::read_symlink("/proc/self/exe").string();
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     for (Subcommand const* const subcommand : subcommands)

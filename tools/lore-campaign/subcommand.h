@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include <lore/campaign/runner.h>
+#include <lore/interchange/pack.h>
 
 #include <string>
 #include <vector>
@@ -18,11 +19,16 @@ struct Arguments {
     int concurrent = 0;
     std::vector<std::string> cluster_options;
     bool only_write = false;
-    std::string out;             ///< of `report`
+    std::string out;             ///< of `report`, `export` and `pack`
     std::string first, second;   ///< of `test`
     bool interval = false;
     int port = -1;   ///< of `watch`; -1: none was given
     bool as_text = false;
+    bool follow = false;                  ///< of `events`
+    int every = 1;                        ///< generations
+    std::string format = "iohanalyzer";   ///< of `export`
+    PackOptions pack;                     ///< of `pack`; which parts it leaves out is said by name
+    std::vector<std::string> leave_out;
     bool quiet = false;
 };
 
@@ -34,7 +40,7 @@ struct Subcommand {
     ExitCode (*work)(Arguments const&);
 };
 
-extern Subcommand const plan, run, submit, report, replay, status, test, watch;
+extern Subcommand const plan, run, submit, report, replay, status, test, watch, events, export_results, pack, verify;
 
 /// FILE and --dir, of all that work on a campaign.
 void add_campaign(CLI::App&, Arguments&);

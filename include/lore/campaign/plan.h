@@ -60,6 +60,14 @@ struct FigurePlan {
     std::vector<std::string> figure6;   ///< the product of all of these
 };
 
+/// Target treatments whose runs are taken together: variants of one kind, such as clones of several bases.
+struct PoolPlan {
+    std::string name;
+    std::string label;
+    std::vector<std::string> treatments;
+    std::vector<std::string> against;   ///< treatments, or pools before it, that it was planned to be compared with
+};
+
 /// How the campaign asks a batch system for its share.
 struct ClusterPlan {
     std::string time_limit = "04:00:00";   ///< of a task; one that needs longer is queued again at a checkpoint
@@ -75,8 +83,9 @@ struct CampaignPlan {
     std::string directory;   ///< in which the file lies; relative paths start there
     std::string title;
     Treatment source;
-    std::vector<KnowledgePlan> knowledge;    ///< each after those it is made from
-    std::vector<Treatment> targets;          ///< in the order in which they are run
+    std::vector<KnowledgePlan> knowledge;   ///< each after those it is made from
+    std::vector<Treatment> targets;         ///< in the order in which they are run
+    std::vector<PoolPlan> pools;
     std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
     std::vector<double> levels;   ///< of the reward, whose first reaching is timed; empty: as the report chooses
     FigurePlan figures;
@@ -84,6 +93,8 @@ struct CampaignPlan {
 
     Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
     KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
+    PoolPlan const* pool(std::string_view name) const;                  ///< null if there is none
+    std::string const& label(std::string_view name) const;              ///< of a treatment or a pool
     std::string config_path(Treatment const&) const;                    ///< usable from the working directory
 };
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lore {
 
@@ -19,6 +20,9 @@ struct RunWorld {
 /// The text of the configuration's arena file, or of the built-in arena; "" where the world is another than
 /// collectball. Throws UsageError as arena_text.
 std::string arena_text_of(ExperimentConfig const&);
+/// The files that the world is made of: the arena's, the library, or those of a process's command; none of what is
+/// built in. Opens nothing. Throws UsageError: the library is not found.
+std::vector<std::string> world_files(ExperimentConfig const&);
 /// The world that the configuration asks for: [world], or else collectball with this arena. Throws UsageError: there is
 /// no such world, it refuses its settings, or a setting of collectball alone is given to another; Error: as open_world.
 RunWorld open_run_world(ExperimentConfig const&, std::string_view arena_text);

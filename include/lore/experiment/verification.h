@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace lore {
@@ -10,5 +11,9 @@ namespace lore {
 /// what every run has. Returns what it is, in one line ("knowledge base of 23734 features"). Throws Error: what is
 /// wrong with it, or that it is no file of Lore.
 std::string verify(std::string const& path);
+
+/// Likewise, for a copy that is known to lack files: an output that a manifest lists is not missed if `lacks` says so
+/// of its path.
+std::string verify(std::string const& path, std::function<bool(std::string const& path)> const& lacks);
 
 }   // namespace lore

@@ -59,6 +59,10 @@ struct OpenedWorld {
 /// Throws UsageError with the places where it is not found.
 std::string find_library(std::string const& name, std::string const& folder);
 
+/// The files that the world is made of: its library, or those of its process's command; none of a built-in world.
+/// Opens nothing. Throws UsageError as find_library.
+std::vector<std::string> files_of(WorldRequest const&, std::span<BuiltinWorld const>);
+
 /// Throws UsageError: no such built-in world or file, a command that cannot be started, refused settings; Error: as
 /// load_world and start_world.
 OpenedWorld open_world(WorldRequest const&, std::span<BuiltinWorld const>);

@@ -32,6 +32,9 @@ with browser() as page:
           "ids are unique")
     check(page.script("return document.querySelectorAll('figure svg').length") >= 4, "four figures are there")
 
+    widths = page.script("const frame = document.getElementById('speeds').parentNode; return [frame.scrollWidth, frame.clientWidth]")
+    check(widths[0] <= widths[1], f"the widest table fits the page {widths}")
+
     # Sorting: by balls, then the other way round.
     balls = "return [...document.querySelectorAll('#runs tbody tr')].map(row => Number(row.cells[3].textContent))"
     before = page.script(balls)

@@ -120,6 +120,17 @@ void messages(Seeds const& seeds, Population const& population) {
     seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
 }
 
+void crates(Seeds const& seeds) {
+    constexpr std::string_view crate =
+        R"({"@graph": [{"@id": "ro-crate-metadata.json", "about": {"@id": "./"},
+                        "conformsTo": {"@id": "https://w3id.org/ro/crate/1.2"}},
+                       {"@id": "./", "@type": "Dataset", "name": "N", "description": "D", "datePublished": "2026-01-31",
+                        "license": "L"},
+                       {"@id": "a%20b.csv", "@type": ["File"], "contentSize": "7", "sha256": "00ff"},
+                       {"@id": "#left-out/c", "@type": "File", "localPath": "c"}]})";
+    seeds.write("crate", "small", std::as_bytes(std::span{crate.data(), crate.size()}));
+}
+
 }   // namespace
 
 int main(int argc, char** argv) {
@@ -133,4 +144,5 @@ int main(int argc, char** argv) {
     files(seeds, samples);
     results(seeds, samples);
     messages(seeds, evolved.population);
+    crates(seeds);
 }

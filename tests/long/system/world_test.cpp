@@ -112,6 +112,15 @@ TEST_F(Worlds, of_other_channels_refuse_knowledge_and_founders_in_one_line_and_w
     EXPECT_FALSE(exists(never));
 }
 
+TEST_F(Worlds, are_found_beside_a_configuration_that_is_named_without_a_directory) {
+    bring("pendulum");
+    std::string const config = configuration("here", "pendulum", ""), run = scratch.file("run");
+    std::vector<std::string> words = evolve("here.toml", run);
+    words.insert(words.begin(), {"env", "-C", scratch.path()});
+    EXPECT_EQ(signature_of(words), signature_of(evolve(config, scratch.file("by_path"))));
+    expect_done({program("lore-kb"), "build", run, "--out", scratch.file("base.lorekb"), "-q"});
+}
+
 TEST_F(Worlds, that_were_built_anew_are_not_those_of_a_run_that_was_begun) {
     bring("trial", "mine");
     std::string const config = configuration("mine", "mine", ""), run = scratch.file("run");

@@ -110,6 +110,40 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(misspelt.find("population"), std::string::npos) << misspelt;
 }
 
+TEST_F(Campaign, takes_treatments_together_in_pools) {
+    std::string const pool = "[[pool]]\nname = \"with\"\ntreatments = [\"all\", \"kb1\"]\nagainst = [\"none\"]\n";
+    std::string const second =
+        "[[pool]]\nname = \"one\"\nlabel = \"One\"\ntreatments = [\"none\"]\nagainst = [\"with\"]\n";
+    write("campaign.toml", test::small_campaign + pool + second);
+    CampaignPlan const campaign = plan();
+    ASSERT_EQ(campaign.pools.size(), 2u);
+    EXPECT_EQ(campaign.pool("with")->treatments, (std::vector<std::string>{"all", "kb1"}));
+    EXPECT_EQ(campaign.label("with"), "with");
+    EXPECT_EQ(campaign.label("one"), "One");
+    EXPECT_EQ(campaign.label("none"), "no transfer");
+    EXPECT_EQ(campaign.pool("none"), nullptr);
+
+    auto const refused = [&](std::string const& tables) {
+        write("campaign.toml", test::small_campaign + tables);
+        return test::complaint_of<UsageError>([&] { plan(); });
+    };
+    auto const table = [](std::string const& name, std::string const& keys) {
+        return "[[pool]]\nname = \"" + name + "\"\n" + keys + "\n";
+    };
+    EXPECT_NE(refused(table("kb1", "treatments = [\"all\"]")).find("twice"), std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"kb\"]")).find("Did you mean 'kb1'"), std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = []")).find("one treatment or more"), std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"all\", \"all\"]")).find("each once"), std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"source\"]")).find("no 'source' before"), std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nagainst = [\"all\"]")).find("with itself"),
+              std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nagainst = [\"none\", \"none\"]")).find("one twice"),
+              std::string::npos);
+    EXPECT_NE(refused(pool + table("again", "treatments = [\"kb1\"]\nagainst = [\"with\"]")).find("'kb1' would be"),
+              std::string::npos);
+    EXPECT_NE(refused(table("with", "treatments = [\"all\"]\nversus = [\"none\"]")).find("versus"), std::string::npos);
+}
+
 TEST_F(Campaign, has_runs_read_the_windows_of_their_base) {
     using Settings = std::vector<std::string>;
     Settings const generations{"evolution.generations=20"},

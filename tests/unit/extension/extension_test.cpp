@@ -109,7 +109,8 @@ TEST(OneMoreDistance, is_measured_plainly_and_the_others_by_their_fast_twins) {
 TEST(OneMoreDistance, travels_in_messages_with_what_it_needs) {
     Stream rng{3, Purpose::test};
     std::vector<Delivery> deliveries;
-    for (int i = 0; i < 5; ++i) deliveries.push_back({i, {i, 0.5, {}, random_behavior(rng, 4000)}});
+    for (int i = 0; i < 5; ++i)
+        deliveries.push_back({i, {static_cast<double>(i), 0.5, {}, random_behavior(rng, 4000)}});
     EXPECT_EQ(unpack_deliveries(pack_deliveries(deliveries)), deliveries);
     EXPECT_NE(deliveries[0].evaluation.descriptors.delivered, deliveries[1].evaluation.descriptors.delivered);
 }

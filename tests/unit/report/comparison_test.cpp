@@ -54,6 +54,37 @@ TEST(Comparison, writes_the_promised_columns) {
     EXPECT_EQ(comparisons_csv(comparisons), "a,b,n_a,n_b,u,p,p_holm,a12\na,b,2,2,2,1,1,0.5\n");
 }
 
+TEST(Pools, take_runs_together_and_correct_for_their_planned_comparisons_alone) {
+    CampaignPlan plan = three_treatments();
+    plan.pools.push_back({"ab", "a and b", {"a", "b"}, {"c"}});
+    Results const results = results_with({{"a", {1, 2}}, {"b", {3}}, {"c", {4, 5, 6}}});
+    EXPECT_EQ(rewards_of(plan, results, "ab"), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(rewards_of(plan, results, "c"), (std::vector<double>{4, 5, 6}));
+    auto const planned = compare_pools(plan, results);
+    ASSERT_EQ(planned.size(), 1u);
+    EXPECT_EQ(planned[0].n_a, 3);
+    EXPECT_NEAR(planned[0].p, 0.1, 1e-15);
+    EXPECT_NEAR(planned[0].p_holm, 0.1, 1e-15) << "one comparison needs no correction, whatever the pairs are";
+    EXPECT_EQ(pools_csv(planned).substr(0, 60), "a,b,n_a,n_b,u,p,p_holm,a12,a12_low,a12_high\nab,c,3,3,0,0.1,0");
+}
+
+TEST(Pools, are_compared_with_pools_before_them_and_corrected_together) {
+    CampaignPlan plan = three_treatments();
+    plan.pools.push_back({"first", "", {"a"}, {"c"}});
+    plan.pools.push_back({"second", "", {"b"}, {"c", "first"}});
+    auto const planned = compare_pools(plan, results_with({{"a", {1, 2, 3}}, {"b", {4, 5, 6}}, {"c", {7, 8, 9}}}));
+    ASSERT_EQ(planned.size(), 3u);
+    EXPECT_EQ(planned[2].a, "second");
+    EXPECT_EQ(planned[2].b, "first");
+    for (Comparison const& c : planned) EXPECT_NEAR(c.p_holm, 0.3, 1e-12);
+}
+
+TEST(Pools, without_runs_are_compared_with_nothing) {
+    CampaignPlan plan = three_treatments();
+    plan.pools.push_back({"ab", "", {"a", "b"}, {"c"}});
+    EXPECT_TRUE(compare_pools(plan, results_with({{"c", {1, 2}}})).empty());
+}
+
 TEST(Comparison, gives_the_papers_marks) {
     EXPECT_EQ(significance_mark(0.0009), "**");
     EXPECT_EQ(significance_mark(0.001), "*");

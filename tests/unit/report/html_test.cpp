@@ -29,3 +29,14 @@ TEST(HtmlTable, shows_text_and_sorts_by_values) {
     EXPECT_NE(html.find("<td class=\"text\">a &amp; b</td><td data-value=\"0.500000\">&lt;1</td>"), std::string::npos)
         << html;
 }
+
+TEST(HtmlTable, puts_a_second_line_into_a_cell_and_columns_closer_where_it_is_told) {
+    std::vector<HtmlColumn<int>> const columns{{"n", [](int n) {
+                                                    return HtmlCell{std::to_string(n), "7", "0 .. <9"};
+                                                }}};
+    std::string const narrow = html_table("t", columns, std::vector<int>{5});
+    EXPECT_NE(narrow.find("<td data-value=\"7\">5<br><small>0 .. &lt;9</small></td>"), std::string::npos) << narrow;
+    EXPECT_NE(narrow.find("class=\"sortable\""), std::string::npos);
+    EXPECT_NE(html_table("t", columns, std::vector<int>{5}, Spacing::dense).find("class=\"sortable dense\""),
+              std::string::npos);
+}

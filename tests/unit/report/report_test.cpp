@@ -1,8 +1,11 @@
 #include <lore/report/report.h>
 
 #include "campaign/campaign_fixture.h"
+#include "support/complaint.h"
 
-#include <gtest/gtest.h>
+#include <lore/campaign/replay.h>
+
+#include <gmock/gmock.h>
 
 #include <set>
 
@@ -120,11 +123,12 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
         std::size_t const line = page.find("<p>Runs: Lore");
         return line == std::string::npos ? page : page.erase(line, page.find('\n', line) - line);
     };
-    for (std::string const name : {"paper", "ties", "beyond", "saturation", "windows", "faster", "longer"}) {
+    for (std::string const name :
+         {"paper", "ties", "beyond", "saturation", "windows", "faster", "longer", "confirmation_500"}) {
         std::filesystem::path const kept = std::filesystem::path{LORE_SOURCE_DIR "/docs/results"} / name;
         write_report(read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/" + name + ".toml"), CampaignDirectory{kept},
                      directory(name));
-        for (char const* file : {"pvalues.csv", "summary.json"})
+        for (char const* file : {"pvalues.csv", "summary.json", "pools.csv"})   // pools.csv of the last alone
             EXPECT_EQ(made(file, name), read(kept / file)) << name << '/' << file;
         std::string const page = made("report.html", name);
         EXPECT_FALSE(page.empty());
@@ -136,6 +140,28 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
             }
         }
     }
+}
+
+TEST_F(Report, has_pools_where_the_campaign_has_them_and_nothing_of_them_else) {
+    std::string const without = read(scratch.file("campaign.toml"));
+    write("campaign.toml", without + "[[pool]]\nname = \"with\"\nlabel = \"with knowledge\"\n"
+                                     "treatments = [\"kb1\", \"all\"]\nagainst = [\"none\"]\n");
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_TRUE(made("pools.csv").starts_with("a,b,n_a,n_b,u,p,p_holm,a12,a12_low,a12_high\nwith,none,6,3,"));
+    EXPECT_EQ(rows("pools.csv"), 1);
+    EXPECT_NE(made("report.html").find(">with knowledge</td><td class=\"text\">KB1, all</td>"), std::string::npos);
+    EXPECT_NE(made("report.html").find("id=\"planned\""), std::string::npos);
+    EXPECT_NE(made("summary.json").find("\"planned\""), std::string::npos);
+    std::string const pairs = made("pvalues.csv");
+
+    write("campaign.toml", without);
+    write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/pools.csv")));
+    EXPECT_EQ(made("pvalues.csv"), pairs) << "pools change nothing else";
+    for (char const* word : {"Pooled", "id=\"planned\"", "<!--"})
+        EXPECT_EQ(made("report.html").find(word), std::string::npos) << word;
+    EXPECT_EQ(made("summary.json").find("\"pools\""), std::string::npos);
 }
 
 TEST_F(Report, needs_no_more_than_the_final_rewards_and_the_curves) {
@@ -163,6 +189,8 @@ TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {
 }
 
 TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tables) {
+    write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"with\"\ntreatments = [\"kb1\", \"all\"]\n"
+                                                  "against = [\"none\"]\n");
     ::setenv("LORE_FAKE_UNIT", "cos", 1);
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     ::unsetenv("LORE_FAKE_UNIT");
@@ -173,8 +201,12 @@ TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tab
     EXPECT_NE(made("knowledge/choice.json").find("\"reward_unit\": \"cos\""), std::string::npos);
     std::string const page = made("report.html");
     EXPECT_NE(page.find("Reward [cos] of the best-of-runs"), std::string::npos);
+    EXPECT_NE(page.find("Reward [cos] of the best-of-runs at the last generation, of the runs of several treatments"),
+              std::string::npos);
+    EXPECT_NE(page.find("[cos x generations]"), std::string::npos);
     EXPECT_NE(made("figures/figure4.svg").find("reward [cos] (best-of-run)"), std::string::npos);
-    for (std::string const& text : {page, made("summary.json"), made("runs.csv"), made("kbs.csv"), made("leads.csv")})
+    for (std::string const& text :
+         {page, made("summary.json"), made("runs.csv"), made("kbs.csv"), made("leads.csv"), made("pools.csv")})
         EXPECT_EQ(text.find("balls"), std::string::npos) << text.substr(std::min(text.size(), text.find("balls")), 80);
 
     std::filesystem::create_directories(scratch.file("kept"));
@@ -184,6 +216,15 @@ TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tab
     write_report(plan(), directory("kept"), directory("again"));
     for (char const* name : {"report.html", "summary.json", "figures/figure3.svg", "figures/figure4.svg"})
         EXPECT_EQ(made(name), made(name, "again")) << name;
+}
+
+TEST_F(Report, refuses_a_pool_of_rewards_of_different_units) {
+    write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"both\"\ntreatments = [\"kb1\", \"all\"]\n");
+    std::filesystem::create_directories(scratch.file("kept"));
+    write("kept/curves.csv", "treatment,generation,runs,mean,low,high\nkb1,0,1,3,3,3\nall,0,1,-1,-1,-1\n");
+    write("kept/final.csv", "treatment,run,seed,reward,unit\nkb1,1,1,3,balls\nall,1,1,-1,cos\n");
+    EXPECT_THAT(test::complaint_of<UsageError>([&] { write_report(plan(), directory("kept"), directory("out")); }),
+                ::testing::HasSubstr("pool 'both'"));
 }
 
 TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {

@@ -34,6 +34,8 @@ class Lore(CMakePackage):
     depends_on("zlib")
     depends_on("librsvg")
     depends_on("libmicrohttpd")
+    depends_on("libarchive")
+    depends_on("nettle")
 
     generator("ninja")
 
