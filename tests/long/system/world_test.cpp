@@ -121,6 +121,25 @@ TEST_F(Worlds, are_found_beside_a_configuration_that_is_named_without_a_director
     expect_done({program("lore-kb"), "build", run, "--out", scratch.file("base.lorekb"), "-q"});
 }
 
+TEST_F(Worlds, in_a_process_give_one_run_on_any_number_of_ranks_and_after_a_stop) {
+    std::string const config = LORE_SOURCE_DIR "/docs/examples/cartpole/source.toml", run = scratch.file("run");
+    // The Python that has numpy comes first.
+    std::vector<std::string> const there{"PATH=" + std::filesystem::path{LORE_PYTHON}.parent_path().string() + ":" +
+                                         std::getenv("PATH")};
+    std::vector<std::string> const small{"--set", "episode.steps=60",        "--set", "evolution.generations=6",
+                                         "--set", "evolution.population=10", "--set", "evolution.founders=20"};
+    auto const resumed = small + std::vector<std::string>{"--resume"};
+    std::string const expected = signature_of(there + evolve(config, run + "1", small));
+    EXPECT_EQ(signature_of(there + on_ranks(3) + evolve(config, run + "3", small)), expected);
+    EXPECT_EQ(results(run + "3"), results(run + "1"));
+    Command stopped{scratch, there + evolve(config, run, small + std::vector<std::string>{"--max-time", "0"})};
+    EXPECT_EQ(stopped.wait(), 75) << stopped.err();
+    EXPECT_EQ(signature_of(there + evolve(config, run, resumed)), expected);
+    expect_done(there +
+                std::vector<std::string>{program("lore-kb"), "build", run, "--out", scratch.file("base.lorekb"), "-q"});
+    EXPECT_THAT(file_text(run + "/manifest.json"), HasSubstr("\"name\": \"cartpole\""));
+}
+
 TEST_F(Worlds, that_were_built_anew_are_not_those_of_a_run_that_was_begun) {
     bring("trial", "mine");
     std::string const config = configuration("mine", "mine", ""), run = scratch.file("run");
