@@ -50,6 +50,10 @@ knowledge = "kb1"
 failures = 0
 
 
+# Of Pythons before 3.11.4, such as Debian 12's, tarfile knows no filters.
+SAFELY = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
+
+
 def check(holds, what):
     print(("ok     " if holds else "FAILED ") + what, flush=True)
     global failures
@@ -182,7 +186,7 @@ def unpacked(archive, name):
             file.extractall(folder)
     else:
         with tarfile.open(archive) as file:
-            file.extractall(folder, filter="data")
+            file.extractall(folder, **SAFELY)
     return folder
 
 
@@ -268,11 +272,15 @@ def damage_is_found():
             damaged.write_bytes(text[:at] + bytes([text[at] ^ 1 << draw.randrange(8)]) + text[at + 1:])
             ran = subprocess.run([programs / "lore-campaign", "verify", damaged], capture_output=True)
             if ran.returncode == 0 and not archive.endswith("zst"):
-                # Bits that no file depends on: times, the number of the operating system.
-                missed += files_below(unpacked(str(damaged), f"bits-{at}")) != files_below(whole)
+                # Bits that no file depends on: times, the number of the operating system. A zip has each name twice,
+                # and libarchive reads one of them; who reads both refuses the archive.
+                try:
+                    missed += files_below(unpacked(str(damaged), f"bits-{at}")) != files_below(whole)
+                except zipfile.BadZipFile:
+                    pass
             elif ran.returncode not in (0, 1):
                 missed += 1
-        check(missed == 0, f"a flipped bit anywhere in {archive} is found, or changes no file")
+        check(missed == 0, f"a flipped bit anywhere in {archive} is found, is refused where it is unpacked, or changes no file")
 
 
 def a_pack_is_all_or_nothing():
