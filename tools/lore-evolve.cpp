@@ -13,6 +13,7 @@
 #include <lore/experiment/run.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,8 +83,8 @@ ExitCode work(Session const& session, CommandLine& line) {
                                  outcome.stop_reason));
         return ExitCode::interrupted;
     }
-    return print_result(fmt::format("best-of-run: individual {} with {} {}\nsignature: {}\n", text(outcome.best->id),
-                                    outcome.best->reward, outcome.reward_unit, outcome.signature),
+    return print_result(fmt::format("best-of-run: individual {} with {}\nsignature: {}\n", text(outcome.best->id),
+                                    reward_text(outcome.best->reward, outcome.reward_unit), outcome.signature),
                         "The run is saved; manifest.json in its directory has the signature.");
 }
 

@@ -164,6 +164,12 @@ lore_world
 
 .. automodule:: lore_world
    :members:
+
+lore_gymnasium
+--------------
+
+.. automodule:: lore_gymnasium
+   :members:
 """)
     return "reference/python"
 

@@ -42,14 +42,6 @@ FoundersFile read_founders(std::string const& path) {
     return unpack_founders(read_container(path, FileKind::founders), path);
 }
 
-FoundersFile read_founders(std::string const& path, Channels const& channels) {
-    FoundersFile founders = read_founders(path);
-    if (std::string const why = why_misfit(founders.world.channels, channels); !why.empty())
-        throw UsageError(fmt::format("{} does not fit the world", path), why,
-                         "Make founders from a knowledge base of these channels.");
-    return founders;
-}
-
 FoundersFile unpack_founders(Payload const& payload, std::string_view name) {
     FoundersFile founders;
     read_with_boost(payload, name, [&](InArchive& archive) {

@@ -1,17 +1,5 @@
 // Replay: the arena as SVG, the robot where the slider says.
-const replays = JSON.parse(document.getElementById("replay-data")?.textContent ?? "[]");
-if (replays.length > 0) {
-  const stage = document.getElementById("replay-stage");
-  const slider = document.getElementById("replay-slider");
-  const chooser = document.getElementById("replay-chooser");
-  const play = document.getElementById("replay-play");
-  const state = document.getElementById("replay-state");
-  const make = (name, attributes, parent = stage) => {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-    parent.append(element);
-    return element;
-  };
+@LORE_REPLAY_BEGIN@
   // White for nothing to blue for the highest value; gray where the knowledge base does not find the window.
   const shade = (value, most) => {
     if (value < 0) return "#bbbbbb";
@@ -67,23 +55,4 @@ if (replays.length > 0) {
       (carrying ? ", carrying" : "") + (value === null ? "" : value < 0 ? ", window not in the knowledge base" : `, value ${value}`);
   }
 
-  function stop() {
-    if (timer !== null) clearInterval(timer);
-    timer = null;
-    play.textContent = "Play";
-  }
-
-  slider.addEventListener("input", () => { stop(); show(); });
-  chooser.addEventListener("change", () => { stop(); open(replays[Number(chooser.value)]); });
-  play.addEventListener("click", () => {
-    if (timer !== null) return stop();
-    if (Number(slider.value) >= Number(slider.max)) slider.value = 0;
-    play.textContent = "Pause";
-    timer = setInterval(() => {
-      slider.value = Number(slider.value) + 4;
-      show();
-      if (Number(slider.value) >= Number(slider.max)) stop();
-    }, 33);
-  });
-  open(replays[0]);
-}
+@LORE_REPLAY_END@

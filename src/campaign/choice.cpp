@@ -21,12 +21,6 @@ constexpr char rule[] =
     "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
     "level wished; ties: the lowest seed; runs that the campaign names are taken first";
 
-/// Whole numbers without a decimal point.
-nlohmann::ordered_json number(double reward) {
-    if (std::abs(reward) < 1e15 && reward == std::round(reward)) return static_cast<std::int64_t>(reward);
-    return reward;
-}
-
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
     return {knowledge.name, knowledge.wished_reward, run.run, run.seed, run.reward};
 }
@@ -109,10 +103,11 @@ void write_choice(std::string const& path, Choice const& choice) {
                                       {"wished", entry.wished},
                                       {"run", entry.run},
                                       {"seed", entry.seed},
-                                      {word, number(entry.reward)}});
+                                      {word, json_number<nlohmann::ordered_json>(entry.reward)}});
     document["considered"] = nlohmann::ordered_json::array();
     for (SourceRun const& run : choice.considered)
-        document["considered"].push_back({{"run", run.run}, {"seed", run.seed}, {word, number(run.reward)}});
+        document["considered"].push_back(
+            {{"run", run.run}, {"seed", run.seed}, {word, json_number<nlohmann::ordered_json>(run.reward)}});
     document["without"] = choice.without;
     if (choice.reward_unit != first_reward_unit) document["reward_unit"] = choice.reward_unit;
     write_file_atomically(path, std::string_view{document.dump(2) + "\n"});

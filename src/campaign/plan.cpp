@@ -286,7 +286,7 @@ std::string CampaignPlan::config_path(Treatment const& treatment) const {
 CampaignPlan read_campaign(std::string const& named) {
     std::string const path = current_path(named);
     TomlTable const document = TomlTable::read_file(path);
-    if (!document.has("title") && (document.has("arena") || document.has("evolution")))
+    if (!document.has("title") && (document.has("arena") || document.has("world") || document.has("evolution")))
         throw UsageError(path, "it is the configuration of one run, not a campaign",
                          "Run it with 'lore-evolve', or name a campaign, such as jobs/campaigns/small.toml.");
     CampaignPlan plan;

@@ -1,5 +1,5 @@
 // The episode's inner loop for LORE_LANES robots at once; compiled once per instruction set (lore_kernel). Formulas are
-// those of arena/mechanics.h and core/math.h, which the plain episode uses too; here is only their arrangement.
+// those of collectball/mechanics.h and core/math.h, which the plain episode uses too; here is only their arrangement.
 #include "lane_work.h"
 
 #include <lore/collectball/mechanics.h>

@@ -17,7 +17,7 @@ struct FaceInterval {
     std::int32_t door;
 };
 
-/// Face pairs in the same two places: one distance serves all their intervals (FacePair, arena/shapes.h).
+/// Face pairs in the same two places: one distance serves all their intervals (FacePair, collectball/shapes.h).
 struct FaceLine {
     float upward, downward;
     std::int32_t first, last;   ///< in the intervals
@@ -53,6 +53,9 @@ struct LaneArena {
     float cos_squared_half_view;
     std::int32_t switch_pause;
 };
+
+/// Lanes of the widest kernel; narrower ones use the first of them.
+inline constexpr int lane_slots = 16 * lane_vectors;
 
 /// All that changes while the lanes run, and where they record. Arrays are [lane].
 struct alignas(64) LaneWork {

@@ -21,10 +21,10 @@ StepRecord record(int step, Pose const& pose, Sensors const& sensors, Effectors 
             next};
 }
 
-StepRecord step_by_hand(Arena const& arena, int step, Effectors const& effectors, RobotState& robot,
-                        WorldState& world) {
+/// `sensors`: of robot and world as they are.
+StepRecord step_by_hand(Arena const& arena, int step, Sensors const& sensors, Effectors const& effectors,
+                        RobotState& robot, WorldState& world) {
     Pose const pose = robot.pose;
-    Sensors const sensors = sense(arena, robot, world);
     act(arena, pose, effectors, world);
     move(arena, effectors, world, robot);
     return record(step, pose, sensors, effectors, world, robot.pose);
@@ -55,8 +55,9 @@ std::vector<StepRecord> record_steps(CollectballWorld const& collectball, Networ
     rows.reserve(static_cast<std::size_t>(config.steps));
     for (int step = 0; step < config.steps; ++step) {
         Effectors effectors;
-        tick(network, sense(arena, robot, world), state, effectors);
-        rows.push_back(step_by_hand(arena, step, effectors, robot, world));
+        Sensors const sensors = sense(arena, robot, world);
+        tick(network, sensors, state, effectors);
+        rows.push_back(step_by_hand(arena, step, sensors, effectors, robot, world));
         if (collectball.stop_when_still() > 0 && is_still(rows.back().pose, robot.pose) &&
             ++still_steps > collectball.stop_when_still())
             break;
@@ -70,7 +71,8 @@ std::vector<StepRecord> drive(Arena const& arena, std::span<Effectors const> act
     std::vector<StepRecord> rows;
     rows.reserve(actions.size());
     for (Effectors const& effectors : actions)
-        rows.push_back(step_by_hand(arena, static_cast<int>(rows.size()), effectors, robot, world));
+        rows.push_back(
+            step_by_hand(arena, static_cast<int>(rows.size()), sense(arena, robot, world), effectors, robot, world));
     return rows;
 }
 
@@ -81,7 +83,7 @@ std::vector<StepRecord> follow(Arena const& arena, std::span<StepRecord const> r
     rows.reserve(recorded.size());
     for (StepRecord const& row : recorded) {
         robot.pose = row.pose;
-        rows.push_back(step_by_hand(arena, row.step, row.effectors, robot, world));
+        rows.push_back(step_by_hand(arena, row.step, sense(arena, robot, world), row.effectors, robot, world));
         world = world_after(arena, row);
     }
     return rows;

@@ -93,10 +93,6 @@ Sensors sense(Arena const& arena, RobotState const& robot, WorldState const& wor
     return sensors;
 }
 
-bool delivers(Arena const& arena, Point position, bool carrying, float collect) {
-    return carrying && collect < collecting_from && in_basket(arena, position);
-}
-
 void act(Arena const& arena, Pose const& pose, Effectors const& effectors, WorldState& world) {
     if (arena.task.switch_pause > 0 && !world.switch_lit) {
         if (world.switch_timer > 0) --world.switch_timer;

@@ -2,9 +2,11 @@
 
 #include <lore/archive/all_individuals.h>
 #include <lore/core/error.h>
+#include <lore/core/whole_number.h>
 #include <lore/episode/lanes.h>
 #include <lore/evolution/lineage.h>
 #include <lore/knowledge/builder.h>
+#include <lore/world/reward_text.h>
 
 #include <algorithm>
 #include <array>
@@ -160,8 +162,9 @@ void simulate(RunDirectory const& run, Batch& batch) {
     for (std::size_t i = 0; i < batch.size(); ++i) {
         if (batch.traces[i].reward != batch.rewards[i])
             throw Error(fmt::format("individual {} of {} does not repeat", text(batch.ids[i]), run.path),
-                        fmt::format("{} {} now, {} in its archive", batch.traces[i].reward, world.facts().reward_unit,
-                                    batch.rewards[i]),
+                        fmt::format("{} now, {} in its archive",
+                                    reward_text(batch.traces[i].reward, world.facts().reward_unit),
+                                    reward_text(batch.rewards[i])),
                         "Build with the version of Lore and the world that the run was made with.");
     }
 }
@@ -171,7 +174,7 @@ using Source = std::function<void(std::function<void(IndividualId, Genome const&
 
 /// Half of the best; of whole rewards rounded up and at least 1.
 double usual_success(double best) {
-    return best == std::floor(best) && best >= 0 ? std::max(1.0, std::ceil(best / 2)) : best / 2;
+    return is_whole(best) && best >= 0 ? std::max(1.0, std::ceil(best / 2)) : best / 2;
 }
 
 KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig config, IndexChoice index,

@@ -5,6 +5,7 @@
 #include <lore/core/error.h>
 #include <lore/core/names.h>
 #include <lore/core/whole_number.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -70,8 +71,7 @@ RunSession session_from(Json const& json) {
 
 /// Balls go by the name that they have always had.
 Json reward_of(Manifest const& manifest) {
-    if (manifest.world.reward_unit == "balls") return {"best_balls", static_cast<std::int64_t>(manifest.best_reward)};
-    return {"best_reward", manifest.best_reward};
+    return {fmt::format("best_{}", reward_word(manifest.world.reward_unit)), json_number<Json>(manifest.best_reward)};
 }
 
 }   // namespace
@@ -133,7 +133,7 @@ Manifest read_manifest(std::string const& path) {
             manifest.world = parse_world_record(json.at("world").dump());
         } else {
             manifest.world.task = manifest.task;
-            manifest.world.reward_unit = "balls";
+            manifest.world.reward_unit = first_reward_unit;
         }
         manifest.best = json.at("best");
         Json const& build = json.at("build");

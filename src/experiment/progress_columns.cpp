@@ -2,6 +2,7 @@
 
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 
@@ -99,7 +100,7 @@ FileColumns all_columns() {
 }
 
 std::string header_of(FileColumns const& of_file, std::string_view reward_unit) {
-    bool const other = reward_unit != "balls";
+    bool const other = reward_word(reward_unit) != first_reward_unit;
     std::string header;
     for (ProgressColumn const* column : of_file)
         header.append(header.empty() ? "" : ",")

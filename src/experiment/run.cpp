@@ -12,6 +12,7 @@
 #include <lore/core/standard_streams.h>
 #include <lore/core/stopwatch.h>
 #include <lore/experiment/run_directory.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 
@@ -28,8 +29,8 @@ namespace {
 constexpr int generations_a_line = 100;   ///< of progress, where stderr is no terminal
 
 std::string describe(GenerationSummary const& row, std::string_view unit, bool shaped) {
-    std::string note =
-        fmt::format("best {} {}, mean {:.2f}, {}", row.best_reward, unit, row.mean_reward, name(row.distance));
+    std::string note = fmt::format("best {}, mean {:.2f}, {}", reward_text(row.best_reward, unit), row.mean_reward,
+                                   name(row.distance));
     if (shaped) note += fmt::format(", shaping {:.2f}", row.best_shaping);
     return note;
 }

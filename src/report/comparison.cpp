@@ -1,5 +1,6 @@
 #include "comparison.h"
 
+#include <lore/core/whole_number.h>
 #include <lore/statistics/holm.h>
 #include <lore/statistics/mann_whitney.h>
 #include <lore/statistics/quantiles.h>
@@ -22,12 +23,6 @@ Comparison compared(std::string const& a, std::string const& b, std::vector<doub
 }
 
 using Json = nlohmann::ordered_json;
-
-/// Whole numbers without a decimal point.
-Json number(double reward) {
-    if (std::abs(reward) < 1e15 && reward == std::round(reward)) return static_cast<std::int64_t>(reward);
-    return reward;
-}
 
 Json json_of(std::vector<Comparison> const& comparisons) {
     Json list = Json::array();
@@ -148,7 +143,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
             if (speed.treatment != treatment.name) continue;
             Json& times = entry["time_to_" + word] = Json::array();
             for (std::size_t k = 0; k < speed.to.size(); ++k)
-                times.push_back({{word, number(speed.to[k].level)},
+                times.push_back({{word, json_number<Json>(speed.to[k].level)},
                                  {"reached", speed.to[k].reached},
                                  {"mean", speed.to[k].mean},
                                  {"low", speed.to[k].low},
@@ -182,7 +177,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"kind", base.kind},
                                          {"source_run", base.source_run},
                                          {"seed", base.seed},
-                                         {word, number(base.reward)},
+                                         {word, json_number<Json>(base.reward)},
                                          {"individuals", base.individuals},
                                          {"windows", base.windows},
                                          {"features", base.features},

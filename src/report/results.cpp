@@ -1,5 +1,6 @@
 #include "results.h"
 
+#include <lore/core/whole_number.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
@@ -213,7 +214,7 @@ std::string_view Results::reward_word() const {
 
 bool Results::are_counts() const {
     return std::all_of(runs.begin(), runs.end(),
-                       [](RunRow const& run) { return run.reward >= 0 && run.reward == std::round(run.reward); });
+                       [](RunRow const& run) { return run.reward >= 0 && is_whole(run.reward); });
 }
 
 Results collect_results(CampaignPlan const& plan, CampaignDirectory const& directory) {

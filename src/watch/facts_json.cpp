@@ -1,3 +1,4 @@
+#include <lore/core/whole_number.h>
 #include <lore/watch/facts.h>
 
 #include <algorithm>
@@ -21,19 +22,13 @@ double shown(double value, std::string_view unit) {
     return is_first(unit) ? rounded(value) : std::stod(fmt::format("{:.5g}", value));
 }
 
-/// Whole numbers without a decimal point.
-Json number(double value) {
-    if (std::abs(value) < 1e15 && value == std::round(value)) return static_cast<std::int64_t>(value);
-    return value;
-}
-
 Json step_json(StepWithState const& entry) {
     auto const& [step, state] = entry;
     Json json{{"name", step.name}, {"group", step.group}, {"state", name(state.status)}, {"reason", state.reason}};
     if (state.generations == 0) return json;   // no run
     json["generation"] = state.generation;
     json["generations"] = state.generations;
-    json[std::string{reward_word(state.reward_unit)}] = number(state.best_reward);
+    json[std::string{reward_word(state.reward_unit)}] = json_number<Json>(state.best_reward);
     if (!is_first(state.reward_unit)) json["reward_unit"] = state.reward_unit;
     json["seconds"] = rounded(state.seconds);
     return json;
@@ -52,7 +47,7 @@ Json treatment_json(TreatmentFacts const& facts) {
               {"running", facts.running},
               {"failed", facts.failed},
               {"mean_" + word, shown(facts.mean_reward, facts.reward_unit)},
-              {"best_" + word, number(facts.best_reward)},
+              {"best_" + word, json_number<Json>(facts.best_reward)},
               {"curve", curve}};
     if (!is_first(facts.reward_unit)) json["reward_unit"] = facts.reward_unit;
     return json;
@@ -83,7 +78,7 @@ std::string facts_json(CampaignFacts const& facts) {
     Json const champions = list(facts.champions, [](Champion const& champion) {
         Json json{{"run", champion.run},
                   {"label", champion.label},
-                  {std::string{reward_word(champion.reward_unit)}, number(champion.reward)},
+                  {std::string{reward_word(champion.reward_unit)}, json_number<Json>(champion.reward)},
                   {"signature", champion.signature},
                   {"problem", champion.problem}};
         if (!is_first(champion.reward_unit)) json["reward_unit"] = champion.reward_unit;

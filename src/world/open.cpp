@@ -90,12 +90,15 @@ WorldRequest read_world_request(std::string const& config_file) {
     if (auto const world = file.table("world")) {
         request.name = world->string("library").value_or("");
         request.process = world->strings("process").value_or(std::vector<std::string>{});
-        if (world->has("process") && (request.process.empty() || request.process[0].empty()))
+        // config.toml of a run has all keys, and those of what the world is not are empty.
+        bool const by_library = !request.name.empty(), by_process = !request.process.empty();
+        if (world->has("process") && !by_library && (!by_process || request.process[0].empty()))
             world->fail("process", "it names no program", "Write [\"python3\", \"mine.py\"], for example.");
-        if (world->has("process") && world->has("library"))
-            world->fail("process", "the world is a library already", "Name one of both.");
-        if (world->has("patience") && request.process.empty())
+        if (by_library && by_process) world->fail("process", "the world is a library already", "Name one of both.");
+        if (world->has("patience") && !world->has("process"))
             world->fail("patience", "only a process has a time limit", "Remove it, or name a 'process'.");
+        if (auto const folder = world->string("folder"); folder && !folder->empty())
+            request.folder = (fs::path{request.folder} / *folder).string();
         request.patience = world->number("patience", 0.001, 86400).value_or(request.patience);
         if (auto const settings = world->table("settings")) request.settings = settings->lines();
         world->reject_unknown();

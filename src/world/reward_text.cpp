@@ -1,6 +1,6 @@
 #include <lore/world/reward_text.h>
 
-#include <cmath>
+#include <lore/core/whole_number.h>
 
 #include <fmt/format.h>
 
@@ -19,8 +19,7 @@ std::string_view singular(std::string_view unit) {
 
 std::string reward_text(double reward) {
     if (reward == 0) return "0";   // not "-0"
-    return std::abs(reward) < 1e15 && reward == std::round(reward) ? fmt::format("{:.0f}", reward)
-                                                                   : fmt::format("{:.4g}", reward);
+    return is_whole(reward) ? fmt::format("{:.0f}", reward) : fmt::format("{:.4g}", reward);
 }
 
 std::string reward_text(double reward, std::string_view unit) {

@@ -35,7 +35,7 @@ class Package(LoreTest):
         python = environment / "bin" / "python3"
         self.run_python(python, "-m", "pip", "install", "-q", "--no-index", "--no-build-isolation", source)
         said = self.run_python(
-            python, "-I", "-c", "import lore, lore_world, os; print(lore.__version__, os.listdir(os.path.dirname(lore.__file__)))",
+            python, "-I", "-c", "import lore, lore_world, lore_gymnasium, os; print(lore.__version__, os.listdir(os.path.dirname(lore.__file__)))",
             cwd=self.scratch,
         )  # fmt: skip
         self.assertIn(lore.__version__, said)
@@ -45,7 +45,7 @@ class Package(LoreTest):
         if importlib.util.find_spec("mypy") is None:
             self.skipTest("mypy is not here")
         self.run_python(sys.executable, "-m", "mypy", "--cache-dir", self.scratch / "mypy", "--config-file", PACKAGE / "pyproject.toml", "lore",
-                        "lore_world.py", cwd=PACKAGE)  # fmt: skip
+                        "lore_world.py", "lore_gymnasium.py", cwd=PACKAGE)  # fmt: skip
 
     def test_works_without_pandas_and_matplotlib(self) -> None:
         block = "import sys; sys.modules['pandas'] = sys.modules['matplotlib'] = None; import lore; print(lore.Table)"

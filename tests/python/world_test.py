@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+import lore_gymnasium
 import lore_world
 from support import SOURCE_DIR, LoreTest, program
 
@@ -128,7 +129,7 @@ class WorldTest(LoreTest):
     def check(self, script: str, *arguments: str, settings: str = "") -> str:
         """What lore-world check says of a world that keeps its contract."""
         (self.scratch / "mine.py").write_text(textwrap.dedent(script))
-        for module in (PYTHON / "lore_world.py", pathlib.Path(__file__).parent / "gymnasium_stub.py"):
+        for module in (PYTHON / "lore_world.py", PYTHON / "lore_gymnasium.py", pathlib.Path(__file__).parent / "gymnasium_stub.py"):
             (self.scratch / module.name).write_text(module.read_text())
         config = self.scratch / "mine.toml"
         config.write_text(f'[world]\nprocess = ["{sys.executable}", "-B", "mine.py"]\n[world.settings]\n{settings}')
@@ -330,36 +331,36 @@ class ServeGymnasium(WorldTest):
 
         infinite, largest = math.inf, 3.4028235e38
         box = gymnasium.Box([-2, 0, -infinite, -largest, 1], [2, infinite, 5, largest, 1])
-        kinds, observe = lore_world._observer(box)
+        kinds, observe = lore_gymnasium._observer(box)
         self.assertEqual(kinds, [float] * 5)
         self.assertEqual(observe(np.array([-1, 3, 2, 1, 1])), [0.25, 0.75, 0.25, 0.75, 0])
         self.assertEqual(observe(np.array([9, 0, 5, -3, 1])), [1, 0, 1, 0.125, 0])
-        kinds, observe = lore_world._observer(gymnasium.Discrete(3, start=5))
+        kinds, observe = lore_gymnasium._observer(gymnasium.Discrete(3, start=5))
         self.assertEqual((kinds, observe(np.int64(6))), ([bool] * 3, [0, 1, 0]))
-        kinds, observe = lore_world._observer(gymnasium.MultiBinary((2, 2)))
+        kinds, observe = lore_gymnasium._observer(gymnasium.MultiBinary((2, 2)))
         self.assertEqual((kinds, observe(np.array([[1, 0], [1, 1]]))), ([bool] * 4, [1, 0, 1, 1]))
-        with self.assertRaisesRegex(lore_world._Wrong, "space Text are not mapped"):
-            lore_world._observer(gymnasium.Text())
+        with self.assertRaisesRegex(lore_world.WorldError, "space Text are not mapped"):
+            lore_gymnasium._observer(gymnasium.Text())
 
     def test_maps_effectors_to_actions(self) -> None:
         import gymnasium_stub as gymnasium
 
-        kinds, action = lore_world._actor(gymnasium.Box([[-2, 0]], [[2, 10]]))
+        kinds, action = lore_gymnasium._actor(gymnasium.Box([[-2, 0]], [[2, 10]]))
         self.assertEqual((kinds, action([0.25, 1]).tolist()), ([float] * 2, [[-1, 10]]))
         self.assertEqual(action([0.25, 1]).dtype, np.float32)
-        kinds, action = lore_world._actor(gymnasium.Discrete(2))
+        kinds, action = lore_gymnasium._actor(gymnasium.Discrete(2))
         self.assertEqual((kinds, action([0]), action([1])), ([bool], 0, 1))
-        kinds, action = lore_world._actor(gymnasium.Discrete(3, start=-1))
+        kinds, action = lore_gymnasium._actor(gymnasium.Discrete(3, start=-1))
         self.assertEqual((kinds, action([0.5, 0.5, 0.25]), action([0, 0.1, 0.2])), ([float] * 3, -1, 1))
-        kinds, action = lore_world._actor(gymnasium.MultiBinary(3))
+        kinds, action = lore_gymnasium._actor(gymnasium.MultiBinary(3))
         self.assertEqual((kinds, action([1, 0, 1]).tolist()), ([bool] * 3, [1, 0, 1]))
-        with self.assertRaisesRegex(lore_world._Wrong, "no bounds"):
-            lore_world._actor(gymnasium.Box([-math.inf], [1]))
+        with self.assertRaisesRegex(lore_world.WorldError, "no bounds"):
+            lore_gymnasium._actor(gymnasium.Box([-math.inf], [1]))
 
     def test_makes_a_world_of_an_environment_that_keeps_the_contract(self) -> None:
         script = """
-        import gymnasium_stub, lore_world
-        lore_world.serve_gymnasium(gymnasium_stub.Walk, sensors=["left", "right"], position=lambda env: (env.place + 8, 1),
+        import gymnasium_stub, lore_gymnasium
+        lore_gymnasium.serve(gymnasium_stub.Walk, sensors=["left", "right"], position=lambda env: (env.place + 8, 1),
                                    size=(16, 2), reward_unit="steps")
         """
         said = self.check(script, settings='task = "steep"\nseed = 3\nslope = 0.5\n')
@@ -372,8 +373,8 @@ class ServeGymnasium(WorldTest):
         if importlib.util.find_spec("gymnasium") is None:
             self.skipTest("gymnasium is not here")
         script = """
-        import gymnasium, lore_world
-        lore_world.serve_gymnasium(lambda **settings: gymnasium.make("CartPole-v1", **settings))
+        import gymnasium, lore_gymnasium
+        lore_gymnasium.serve(lambda **settings: gymnasium.make("CartPole-v1", **settings))
         """
         self.assertIn("world cartpole_v1 default", self.check(script))
 

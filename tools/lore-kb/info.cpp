@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <lore/core/whole_number.h>
 #include <lore/archive/knowledge_export.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/knowledge/summary.h>
@@ -25,12 +26,6 @@ struct InfoOptions {
 std::string const& unit_of(KnowledgeBase const& base) { return base.provenance().reward_unit; }
 std::string word_of(KnowledgeBase const& base) { return std::string{reward_word(unit_of(base))}; }
 
-/// Whole numbers without a decimal point.
-nlohmann::ordered_json number(double reward) {
-    if (std::abs(reward) < 1e15 && reward == std::round(reward)) return static_cast<std::int64_t>(reward);
-    return reward;
-}
-
 nlohmann::ordered_json evidence_json(KnowledgeBase const& base) {
     Evidence const& evidence = base.evidence();
     auto json = nlohmann::ordered_json::object();
@@ -41,7 +36,7 @@ nlohmann::ordered_json evidence_json(KnowledgeBase const& base) {
     if (evidence.has_credit)
         json["credit"] = {{"news", std::accumulate(evidence.news.begin(), evidence.news.end(), std::uint64_t{0})}};
     if (evidence.has_contrast())
-        json["contrast"] = {{"success_" + word_of(base), number(*evidence.success_reward)},
+        json["contrast"] = {{"success_" + word_of(base), json_number<nlohmann::ordered_json>(*evidence.success_reward)},
                             {"successes", evidence.successes},
                             {"failures", evidence.failures}};
     return json;

@@ -37,12 +37,13 @@ from typing import Any, Callable, Mapping, NamedTuple, Protocol, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["serve", "serve_batches", "serve_gymnasium", "unit"]
+__all__ = ["WorldError", "serve", "serve_batches", "unit"]
 
 Floats = npt.NDArray[np.float32]
 Channels = Union[Mapping[str, type], Sequence[str]]
 
 VERSION = 1  # of the frames: docs/manual/formats.md
+of_lore = {__file__}  # files that no message points to; lore_gymnasium adds itself
 
 
 def unit(value: float, low: float, high: float) -> float:
@@ -79,56 +80,7 @@ def serve_batches(world: Callable[..., Any]) -> None:
     _Server(world, _LivesTogether).run()
 
 
-def serve_gymnasium(
-    make_env: Callable[..., Any],
-    *,
-    name: str = "",
-    task: str = "default",
-    reward_unit: str = "reward",
-    seed: int = 0,
-    sensors: Sequence[str] | None = None,
-    effectors: Sequence[str] | None = None,
-    position: Callable[[Any], tuple[float, float]] | None = None,
-    size: tuple[float, float] = (1.0, 1.0),
-    scene: str = "",
-    max_batch: int = 64,
-) -> None:
-    """As :func:`serve`, for an environment of Gymnasium: ``serve_gymnasium(lambda: gymnasium.make("Pendulum-v1"))``.
-
-    The settings are arguments of `make_env`, but for ``task`` (a name) and ``seed``, with which each life is reset, so
-    that all lives are alike. A life is over where the environment terminates or truncates. A batch has an environment a
-    life, `max_batch` at most. `position` gives a place within `size` from the unwrapped environment.
-
-    ================================  =================================================================================
-    observation                       sensors
-    ================================  =================================================================================
-    Box with bounds                   a continuous one a number: (value - low) / (high - low), clipped
-    Box without, or on one side only  v / (1 + v) of the distance from the bound; without any 0.5 + 0.5 v / (1 + abs(v))
-    Discrete(n), MultiBinary(n)       n binary ones: the value's is 1; as they are
-    ================================  =================================================================================
-
-    ================================  =================================================================================
-    action                            effectors
-    ================================  =================================================================================
-    Box, with bounds                  a continuous one a number: low + effector (high - low)
-    Discrete(2)                       a binary one
-    Discrete(n)                       n continuous ones: the action is that of the largest, of equal ones the first
-    MultiBinary(n)                    n binary ones
-    ================================  =================================================================================
-    """
-
-    def make(task: str = task, seed: int = seed, **settings: Any) -> _GymnasiumLife:
-        life = _GymnasiumLife(make_env(**settings), seed, sensors, effectors, position)
-        life.task, life.reward_unit, life.max_batch = task, reward_unit, max_batch
-        life.name = name or life.name
-        life.width, life.height = size
-        life.scene = lambda: scene
-        return life
-
-    serve(make)
-
-
-class _Wrong(Exception):
+class WorldError(Exception):
     """A rule of this page is broken: told without a traceback, which would show this file only."""
 
 
@@ -169,7 +121,7 @@ def _floats(array: Floats) -> bytes:
 def _channels(channels: Channels) -> list[tuple[str, bool]]:
     kinds = channels if isinstance(channels, Mapping) else dict.fromkeys(channels, float)
     if len(kinds) != len(channels):
-        raise _Wrong("two channels have one name")
+        raise WorldError("two channels have one name")
     return [(str(name), kind is bool) for name, kind in kinds.items()]
 
 
@@ -235,7 +187,7 @@ class _LivesInTurn:
             if len(given) == 4:
                 self._places[i], moved = given[3], True
             elif len(given) != 3:
-                raise _Wrong(f"step gave {len(given)} things, and not sensors, reward, over and maybe a position")
+                raise WorldError(f"step gave {len(given)} things, and not sensors, reward, over and maybe a position")
             self._rows[i] = self._checked(given[0], "step")
             rewards[i] = float(given[1])
             self.over[i] = bool(given[2])
@@ -255,7 +207,7 @@ class _LivesInTurn:
 
     def _checked(self, sensors: Sequence[float], method: str) -> Sequence[float]:
         if len(sensors) != self._count:
-            raise _Wrong(f"{method} gave {len(sensors)} sensors, and the world has {self._count}")
+            raise WorldError(f"{method} gave {len(sensors)} sensors, and the world has {self._count}")
         return sensors
 
 
@@ -276,7 +228,7 @@ class _LivesTogether:
     def act(self, effectors: Floats) -> Floats:
         given = self._world.step(effectors)
         if len(given) not in (3, 4):
-            raise _Wrong(f"step gave {len(given)} things, and not sensors, rewards, over and maybe positions")
+            raise WorldError(f"step gave {len(given)} things, and not sensors, rewards, over and maybe positions")
         rewards = self._kept(_array(given[1], self.over.shape, "the rewards of step"), np.float32(0))
         over = self._kept(_array(given[2], self.over.shape, "over of step") != 0, True)
         self.sensors = self._kept(_array(given[0], self.sensors.shape, "the sensors of step"), self.sensors)
@@ -307,7 +259,7 @@ def _array(values: Any, shape: tuple[int, ...], what: str) -> Floats:
     """A copy: a world may change its own array in the next step."""
     array = np.array(values, np.float32)
     if array.shape != shape:
-        raise _Wrong(f"{what}: the shape is {array.shape}, and not {shape}")
+        raise WorldError(f"{what}: the shape is {array.shape}, and not {shape}")
     return array
 
 
@@ -368,14 +320,14 @@ class _Server:
             tag, batch, payload = question
             try:
                 if tag not in answers:
-                    raise _Wrong(f"there is no question '{tag}'; take the lore_world.py of this Lore")
+                    raise WorldError(f"there is no question '{tag}'; take the lore_world.py of this Lore")
                 answers[tag](batch, payload)
             except BrokenPipeError:
                 return  # Lore has ended
             except _Refused as refused:
                 self._wire.write("refused", batch, _reason(str(refused)))
             except Exception as error:
-                if not isinstance(error, _Wrong):
+                if not isinstance(error, WorldError):
                     traceback.print_exc()
                 sys.stderr.flush()
                 self._wire.write("failure", batch, _reason(_told(error)))
@@ -401,7 +353,7 @@ class _Server:
     def _look_at(self, world: Any) -> _Facts:
         for needed in ("name", "sensors", "effectors", "reset", "step"):
             if not hasattr(world, needed):
-                raise _Wrong(f"the world has no '{needed}'")
+                raise WorldError(f"the world has no '{needed}'")
         sensors, effectors = _channels(world.sensors), _channels(world.effectors)
         trial = self._kind(self._pool, len(sensors), 1)
         outcome_size = len(trial.outcome())
@@ -443,104 +395,15 @@ def _expect_known(make: Callable[..., Any], settings: Mapping[str, Any]) -> None
 
 def _told(error: BaseException) -> str:
     """An exception in one line, with the last line of the world's own that it passed."""
-    text = str(error) if isinstance(error, _Wrong) else f"{type(error).__name__}: {error}"
-    own = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename != __file__]
-    if isinstance(error, _Wrong) or not own:
+    text = str(error) if isinstance(error, WorldError) else f"{type(error).__name__}: {error}"
+    own = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename not in of_lore]
+    if isinstance(error, WorldError) or not own:
         return text
     return f"{text}, {os.path.basename(own[-1].filename)}:{own[-1].lineno} in {own[-1].name}"
 
 
 def _reason(text: str) -> bytes:
     return _text(text[:500])
-
-
-class _GymnasiumLife:
-    """An environment as a life. Spaces are known by the names of their classes, so that Gymnasium is not imported."""
-
-    def __init__(
-        self,
-        env: Any,
-        seed: int,
-        sensors: Sequence[str] | None,
-        effectors: Sequence[str] | None,
-        position: Callable[[Any], tuple[float, float]] | None,
-    ) -> None:
-        self._env, self._seed, self._position = env, seed, position
-        kinds, self._observe = _observer(env.observation_space)
-        self.sensors = _named(sensors, kinds, "sensor")
-        kinds, self._action = _actor(env.action_space)
-        self.effectors = _named(effectors, kinds, "effector")
-        spec = getattr(env, "spec", None)
-        self.name = "".join(c if c.isalnum() else "_" for c in spec.id.lower()) if spec else type(env).__name__.lower()
-        self.task, self.reward_unit, self.max_batch = "default", "reward", 64
-        self.width, self.height = 1.0, 1.0
-        self.scene: Callable[[], str] = str
-
-    def reset(self) -> tuple[list[float], tuple[float, float]]:
-        observation, _ = self._env.reset(seed=self._seed)
-        return self._observe(observation), self._place()
-
-    def step(self, effectors: list[float]) -> tuple[list[float], float, bool, tuple[float, float]]:
-        observation, reward, terminated, truncated, _ = self._env.step(self._action(effectors))
-        return self._observe(observation), float(reward), bool(terminated or truncated), self._place()
-
-    def _place(self) -> tuple[float, float]:
-        return (0.0, 0.0) if self._position is None else self._position(self._env.unwrapped)
-
-
-def _named(names: Sequence[str] | None, kinds: list[type], kind: str) -> dict[str, type]:
-    names = [f"{kind}_{i}" for i in range(len(kinds))] if names is None else list(names)
-    if len(names) != len(kinds):
-        raise _Wrong(f"{len(names)} names of {kind}s are given, and the environment has {len(kinds)}")
-    return dict(zip(names, kinds))
-
-
-def _observer(space: Any) -> tuple[list[type], Callable[[Any], list[float]]]:
-    """Sensors of an observation space, float or bool each, and what makes their values of an observation."""
-    kind = type(space).__name__
-    if kind == "Box":
-        low, high = _bounds(space)
-        return [float] * low.size, lambda value: _to_unit(value, low, high)
-    if kind == "Discrete":
-        return [bool] * int(space.n), lambda value: [float(value - space.start == i) for i in range(int(space.n))]
-    if kind == "MultiBinary":
-        return [bool] * int(np.prod(space.shape)), lambda value: [float(each) for each in np.ravel(value)]
-    raise _Wrong(f"observations of the space {kind} are not mapped to sensors; wrap the environment")
-
-
-def _actor(space: Any) -> tuple[list[type], Callable[[list[float]], Any]]:
-    """Effectors of an action space, and what makes an action of their values."""
-    kind = type(space).__name__
-    if kind == "Box":
-        low, high = _bounds(space)
-        if not (np.isfinite(low) & np.isfinite(high)).all():
-            raise _Wrong("the space of actions has no bounds; wrap the environment")
-        return [float] * low.size, lambda values: (low + values * (high - low)).reshape(space.shape).astype(space.dtype)
-    if kind == "Discrete" and int(space.n) == 2:
-        return [bool], lambda values: int(space.start + (values[0] > 0.5))
-    if kind == "Discrete":
-        return [float] * int(space.n), lambda values: int(space.start + np.argmax(values))
-    if kind == "MultiBinary":
-        return [bool] * int(np.prod(space.shape)), lambda values: np.array(values).reshape(space.shape).astype(np.int8)
-    raise _Wrong(f"effectors are not mapped to actions of the space {kind}; wrap the environment")
-
-
-def _bounds(space: Any) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Of a Box, flat. Some environments write the largest float where there is no bound."""
-    low, high = np.asarray(space.low, np.float64).ravel(), np.asarray(space.high, np.float64).ravel()
-    return np.where(low < -1e30, -np.inf, low), np.where(high > 1e30, np.inf, high)
-
-
-def _to_unit(values: Any, low: npt.NDArray[np.float64], high: npt.NDArray[np.float64]) -> list[float]:
-    """As the table of serve_gymnasium says."""
-    value = np.asarray(values, np.float64).ravel()
-    with np.errstate(all="ignore"):  # formulas that are not taken meet infinities
-        above, below = np.maximum(value - low, 0), np.maximum(high - value, 0)
-        linear = np.where(high > low, above / (high - low), 0)
-        free = 0.5 + 0.5 * value / (1 + abs(value))
-        kinds = [np.isfinite(low) & np.isfinite(high), np.isfinite(low), np.isfinite(high)]
-        unit_values = np.select(kinds, [linear, above / (1 + above), 1 / (1 + below)], free)
-    return [float(each) for each in np.clip(unit_values, 0, 1)]
 
 
 # Lore says so to the process of a world. What is printed from here on, by other modules that are imported too, is no

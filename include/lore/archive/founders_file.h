@@ -22,8 +22,6 @@ struct FoundersFile {
 void write_founders(std::string const& path, FoundersFile const&);
 /// Of any world. Throws Error: missing or damaged.
 FoundersFile read_founders(std::string const& path);
-/// For a world of these channels. Throws also UsageError: made for others, and how they differ.
-FoundersFile read_founders(std::string const& path, Channels const&);
 /// From a container's payload; `name` is what errors call it.
 FoundersFile unpack_founders(Payload const&, std::string_view name);
 

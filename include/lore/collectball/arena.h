@@ -49,7 +49,7 @@ struct Arena {
     Pose start;
     RobotConfig robot;
     TaskRules task;
-    std::shared_ptr<Geometry const> geometry;   ///< the above, compiled for simulation (arena/geometry.h)
+    std::shared_ptr<Geometry const> geometry;   ///< the above, compiled for simulation (collectball/geometry.h)
 };
 
 inline constexpr int most_balls = 16;

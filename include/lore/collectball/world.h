@@ -41,8 +41,6 @@ WorldState start_world(Arena const&);
 Sensors sense(Arena const&, RobotState const&, WorldState const&);
 /// Pick up, release, press: at most one event a step.
 void act(Arena const&, Pose const&, Effectors const&, WorldState&);
-/// Whether act() delivers a ball: the robot carries one, lets go of it, and stands in the basket.
-bool delivers(Arena const&, Point position, bool carrying, float collect);
 /// Moves along the exact arc, or stays where it is (keeping the new heading) if the disc would touch a wall.
 void move(Arena const&, Effectors const&, WorldState const&, RobotState&);
 

@@ -1,10 +1,21 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
 
 namespace lore {
+
+/// Whether a number is told without a decimal point: whole, and small enough that no digit is lost.
+inline bool is_whole(double value) { return std::abs(value) < 1e15 && value == std::round(value); }
+
+/// A number as a value of nlohmann::json, without a decimal point where it is whole.
+template <class Json>
+Json json_number(double value) {
+    if (is_whole(value)) return static_cast<std::int64_t>(value);
+    return value;
+}
 
 /// The whole number that a value of nlohmann::json holds. Throws std::out_of_range if it is none or beyond the type's
 /// range: json itself would convert 1e300 to an int, which C++ does not define, and cut 2^40 to one silently.

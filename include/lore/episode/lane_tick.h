@@ -12,8 +12,6 @@ namespace lore {
 /// Vectors that one kernel advances together, phase by phase. A step is one long chain of dependent operations; while
 /// one vector waits for its results the processor works on the other.
 inline constexpr int lane_vectors = 2;
-inline constexpr int lane_slots =
-    16 * lane_vectors;   ///< lanes of the widest kernel; narrower ones use the first of them
 
 /// Most sums side by side: enough in flight to hide the latency of an addition.
 inline constexpr int neuron_group_size = 4;

@@ -28,9 +28,8 @@ struct ExperimentConfig {
     int checkpoint_generations = 100;   ///< a checkpoint every so many generations
     double checkpoint_minutes = 5;      ///< and every so many minutes
 
-    bool has_world() const {
-        return !world.name.empty() || !world.process.empty();
-    }   ///< another than collectball by its arena
+    /// Another world than collectball by its arena.
+    bool has_world() const { return !world.name.empty() || !world.process.empty(); }
 };
 
 /// Reads jobs/*.toml; `overrides` are "section.key=value". Unknown keys are errors that name the nearest valid one.

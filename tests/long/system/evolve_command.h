@@ -4,6 +4,8 @@
 
 #include <lore/archive/atomic_file.h>
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -59,6 +61,31 @@ inline std::string results(std::string const& directory) {
     return timeless_progress(directory) + file_text(directory + "/lineage.lore") + file_text(directory + "/all.lore") +
            file_text(directory + "/config.toml") + file_text(directory + "/arena.toml");
 }
+
+/// Tests that run programs in a directory of their own.
+class SystemTest : public ::testing::Test {
+protected:
+    void expect_done(std::vector<std::string> const& words) {
+        Command command{scratch, words};
+        ASSERT_EQ(command.wait(), 0) << command.err();
+    }
+    /// One line on stderr, and that exit code.
+    void expect_refusal(std::vector<std::string> const& words, int code, std::string const& saying) {
+        Command command{scratch, words};
+        EXPECT_EQ(command.wait(), code);
+        EXPECT_THAT(command.err(), ::testing::HasSubstr(saying));
+        std::string const said = command.err();
+        EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
+    }
+    /// Of a run that must end well.
+    std::string signature_of_run(std::vector<std::string> const& words) {
+        Command command{scratch, words};
+        EXPECT_EQ(command.wait(), 0) << command.err();
+        return signature(command);
+    }
+
+    Scratch scratch;
+};
 
 inline bool exists(std::string const& path) { return std::filesystem::exists(path); }
 

@@ -14,32 +14,18 @@ using ::testing::HasSubstr;
 namespace {
 
 /// A small source run, its knowledge base and founders cloned from it.
-class Founders : public ::testing::Test {
+class Founders : public SystemTest {
 protected:
     Founders() {
         expect_done(evolve(config, source));
         expect_done({program("lore-kb"), "build", source, "--out", base, "-q"});
         expect_done({program("lore-kb"), "clone", base, "--count", "10", "--windows", "30", "--out", clones, "-q"});
     }
-    void expect_done(std::vector<std::string> const& words) {
-        Command command{scratch, words};
-        ASSERT_EQ(command.wait(), 0) << command.err();
-    }
     std::string signature_of(std::string const& run, std::vector<std::string> const& more, int ranks = 0) {
         auto const launcher = ranks > 0 ? on_ranks(ranks) : std::vector<std::string>{};
-        Command command{scratch, launcher + evolve(config, scratch.file(run), more)};
-        EXPECT_EQ(command.wait(), 0) << command.err();
-        return signature(command);
-    }
-    void expect_refusal(std::vector<std::string> const& words, int code, std::string const& saying) {
-        Command command{scratch, words};
-        EXPECT_EQ(command.wait(), code);
-        EXPECT_THAT(command.err(), HasSubstr(saying));
-        std::string const said = command.err();
-        EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
+        return signature_of_run(launcher + evolve(config, scratch.file(run), more));
     }
 
-    Scratch scratch;
     std::string config = small_config(scratch, 20);
     std::string source = scratch.file("source"), base = scratch.file("kb.lorekb"), clones = scratch.file("clones.lore");
 };

@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 namespace {
 
 /// A directory with a library of docs/examples or tests/support/worlds and configurations that name it.
-class Worlds : public ::testing::Test {
+class Worlds : public SystemTest {
 protected:
     std::string configuration(std::string const& name, std::string const& library, std::string const& settings,
                               int generations = 12) {
@@ -30,24 +30,6 @@ protected:
                                    scratch.file((as.empty() ? library : as) + ".so"),
                                    std::filesystem::copy_options::overwrite_existing);
     }
-    std::string signature_of(std::vector<std::string> const& words) {
-        Command command{scratch, words};
-        EXPECT_EQ(command.wait(), 0) << command.err();
-        return signature(command);
-    }
-    void expect_done(std::vector<std::string> const& words) {
-        Command command{scratch, words};
-        ASSERT_EQ(command.wait(), 0) << command.err();
-    }
-    void expect_refusal(std::vector<std::string> const& words, int code, std::string const& saying) {
-        Command command{scratch, words};
-        EXPECT_EQ(command.wait(), code);
-        EXPECT_THAT(command.err(), HasSubstr(saying));
-        std::string const said = command.err();
-        EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
-    }
-
-    Scratch scratch;
 };
 
 }   // namespace
@@ -58,19 +40,20 @@ TEST_F(Worlds, give_one_run_on_any_number_of_ranks_with_any_instruction_set_and_
                                             {"trial", ""}}) {
         bring(library);
         std::string const config = configuration(library, library, settings), run = scratch.file(library);
-        std::string const expected = signature_of(evolve(config, run + "1"));
+        std::string const expected = signature_of_run(evolve(config, run + "1"));
         for (int const ranks : {2, 3, 5}) {
             std::string const other = run + std::to_string(ranks);
-            EXPECT_EQ(signature_of(on_ranks(ranks) + evolve(config, other)), expected) << library << ranks;
+            EXPECT_EQ(signature_of_run(on_ranks(ranks) + evolve(config, other)), expected) << library << ranks;
             EXPECT_EQ(results(other), results(run + "1")) << library << ranks;
         }
-        EXPECT_EQ(signature_of(std::vector<std::string>{"LORE_ISA=baseline"} + evolve(config, run + "b")), expected);
+        EXPECT_EQ(signature_of_run(std::vector<std::string>{"LORE_ISA=baseline"} + evolve(config, run + "b")),
+                  expected);
 
         for (int kills = 0; kills < 3; ++kills) {
             Command killed{scratch, evolve(config, run + "k", {"--resume", "--max-time", "0"})};
             EXPECT_EQ(killed.wait(), 75) << killed.err();
         }
-        EXPECT_EQ(signature_of(evolve(config, run + "k", {"--resume"})), expected);
+        EXPECT_EQ(signature_of_run(evolve(config, run + "k", {"--resume"})), expected);
         EXPECT_EQ(results(run + "k"), results(run + "1")) << library;
     }
 }
@@ -84,11 +67,11 @@ TEST_F(Worlds, give_knowledge_of_a_source_task_that_serves_a_target_task) {
     expect_done({program("lore-kb"), "build", run, "--out", base, "-q"});
     expect_done({program("lore-kb"), "reduce", base, "--top", "20", "--out", best, "-q"});
     for (std::string const& made : {run, base, best}) expect_done({program("lore-kb"), "verify", made});
-    std::string const shaped = signature_of(evolve(target, scratch.file("shaped"), {"--kb", base}));
-    EXPECT_EQ(signature_of(on_ranks(3) + evolve(target, scratch.file("shaped3"), {"--kb", base})), shaped);
-    std::string const cloned = signature_of(evolve(target, scratch.file("cloned"), {"--founders", best}));
-    EXPECT_EQ(signature_of(on_ranks(2) + evolve(target, scratch.file("cloned2"), {"--founders", best})), cloned);
-    std::string const policy = signature_of(evolve(target, scratch.file("policy"), {"--founders", run}));
+    std::string const shaped = signature_of_run(evolve(target, scratch.file("shaped"), {"--kb", base}));
+    EXPECT_EQ(signature_of_run(on_ranks(3) + evolve(target, scratch.file("shaped3"), {"--kb", base})), shaped);
+    std::string const cloned = signature_of_run(evolve(target, scratch.file("cloned"), {"--founders", best}));
+    EXPECT_EQ(signature_of_run(on_ranks(2) + evolve(target, scratch.file("cloned2"), {"--founders", best})), cloned);
+    std::string const policy = signature_of_run(evolve(target, scratch.file("policy"), {"--founders", run}));
     EXPECT_NE(shaped, cloned);
     EXPECT_NE(cloned, policy);
 
@@ -117,8 +100,9 @@ TEST_F(Worlds, are_found_beside_a_configuration_that_is_named_without_a_director
     std::string const config = configuration("here", "pendulum", ""), run = scratch.file("run");
     std::vector<std::string> words = evolve("here.toml", run);
     words.insert(words.begin(), {"env", "-C", scratch.path()});
-    EXPECT_EQ(signature_of(words), signature_of(evolve(config, scratch.file("by_path"))));
+    EXPECT_EQ(signature_of_run(words), signature_of_run(evolve(config, scratch.file("by_path"))));
     expect_done({program("lore-kb"), "build", run, "--out", scratch.file("base.lorekb"), "-q"});
+    expect_done({program("lore-world"), "info", "--config", run + "/config.toml"});
 }
 
 TEST_F(Worlds, in_a_process_give_one_run_on_any_number_of_ranks_and_after_a_stop) {
@@ -129,12 +113,12 @@ TEST_F(Worlds, in_a_process_give_one_run_on_any_number_of_ranks_and_after_a_stop
     std::vector<std::string> const small{"--set", "episode.steps=60",        "--set", "evolution.generations=6",
                                          "--set", "evolution.population=10", "--set", "evolution.founders=20"};
     auto const resumed = small + std::vector<std::string>{"--resume"};
-    std::string const expected = signature_of(there + evolve(config, run + "1", small));
-    EXPECT_EQ(signature_of(there + on_ranks(3) + evolve(config, run + "3", small)), expected);
+    std::string const expected = signature_of_run(there + evolve(config, run + "1", small));
+    EXPECT_EQ(signature_of_run(there + on_ranks(3) + evolve(config, run + "3", small)), expected);
     EXPECT_EQ(results(run + "3"), results(run + "1"));
     Command stopped{scratch, there + evolve(config, run, small + std::vector<std::string>{"--max-time", "0"})};
     EXPECT_EQ(stopped.wait(), 75) << stopped.err();
-    EXPECT_EQ(signature_of(there + evolve(config, run, resumed)), expected);
+    EXPECT_EQ(signature_of_run(there + evolve(config, run, resumed)), expected);
     expect_done(there +
                 std::vector<std::string>{program("lore-kb"), "build", run, "--out", scratch.file("base.lorekb"), "-q"});
     EXPECT_THAT(file_text(run + "/manifest.json"), HasSubstr("\"name\": \"cartpole\""));

@@ -33,29 +33,13 @@ TEST(FoundersFile, gives_back_genomes_and_origin) {
     EXPECT_EQ(kind_of_file(scratch.file("f.lore")), FileKind::founders);
 }
 
-TEST(FoundersFile, of_other_channels_is_refused_as_the_user_s_mistake) {
-    Scratch const scratch;
-    FoundersFile const founders = sample();
-    write_founders(scratch.file("f.lore"), founders);
-    EXPECT_EQ(read_founders(scratch.file("f.lore"), founders.world.channels).genomes, founders.genomes);
-    auto const refusal = [&](Channels const& channels) {
-        return test::complaint_of([&] { read_founders(scratch.file("f.lore"), channels); });
-    };
-    EXPECT_THAT(refusal(test::toys_world().channels),
-                HasSubstr("f.lore does not fit the world (made for 12 sensors and 3 effectors, not for 19 and 2)"));
-    std::vector<ChannelInfo> all(founders.world.channels.all().begin(), founders.world.channels.all().end());
-    all[9].name = "whiskers";
-    EXPECT_THAT(refusal({{all.begin(), all.begin() + 12}, {all.begin() + 12, all.end()}}),
-                HasSubstr("its channel 9 is binary 'bumper_right', not binary 'whiskers'"));
-}
-
 TEST(FoundersFile, may_know_no_more_of_its_world_than_the_channels) {
     Scratch const scratch;
     FoundersFile founders{"clones of a knowledge base", "{}", {}, {}};
     founders.world.channels = test::toys_world().channels;
     founders.genomes.push_back(founder(founders.world.interface(), Stream{1, Purpose::founder}));
     write_founders(scratch.file("f.lore"), founders);
-    FoundersFile const back = read_founders(scratch.file("f.lore"), founders.world.channels);
+    FoundersFile const back = read_founders(scratch.file("f.lore"));
     EXPECT_EQ(back.genomes, founders.genomes);
     EXPECT_EQ(back.world, founders.world);
 }

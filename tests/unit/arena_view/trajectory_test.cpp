@@ -3,6 +3,8 @@
 #include <lore/collectball/arena.h>
 #include <lore/figure/svg.h>
 
+#include "support/occurrences.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,11 +13,7 @@
 namespace lore {
 namespace {
 
-int count(std::string const& text, std::string_view part) {
-    int found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-}
+using test::count;
 
 /// A robot that drives to the right for 200 steps, carrying for the second half.
 struct Journey {

@@ -85,23 +85,6 @@ TEST(Act, scores_a_ball_released_within_the_basket_and_loses_it_elsewhere) {
     EXPECT_EQ(world.released[4], (Point{inside.x, inside.y}));
 }
 
-TEST(Delivers, says_what_act_does_wherever_the_robot_is) {
-    Arena const arena = load_arena("collectball", "source");
-    Stream rng{12, Purpose::test};
-    int delivered = 0;
-    for (int round = 0; round < 2000; ++round) {
-        WorldState world = start_world(arena);
-        if (rng.coin()) act(arena, {97.5f, 50.625f, 0}, keep_collecting, world);
-        Pose const pose{static_cast<float>(rng.uniform(240, 350)), static_cast<float>(rng.uniform(350, 394)), 0};
-        Effectors const effectors{0.5f, 0.5f, static_cast<float>(rng.below(5)) / 4};
-        bool const expected = delivers(arena, {pose.x, pose.y}, world.carrying(), effectors[2]);
-        act(arena, pose, effectors, world);
-        EXPECT_EQ(world.collected, expected ? 1 : 0);
-        delivered += world.collected;
-    }
-    EXPECT_GT(delivered, 50);
-}
-
 TEST(Act, holds_at_a_collect_output_of_one_half) {
     Arena const arena = load_arena("collectball", "source");
     WorldState world = start_world(arena);

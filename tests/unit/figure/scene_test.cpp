@@ -1,5 +1,7 @@
 #include <lore/figure/trajectory.h>
 
+#include "support/occurrences.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -7,11 +9,7 @@
 namespace lore {
 namespace {
 
-int count(std::string const& text, std::string_view part) {
-    int found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-}
+using test::count;
 
 /// 40 steps along the diagonal of a world of 2 x 1, two windows, the second not in the knowledge base.
 struct Journey {

@@ -119,6 +119,10 @@ TEST_F(OpenWorld, reads_the_command_of_a_process) {
     EXPECT_EQ(all.settings, "a = 1\n");
     EXPECT_EQ(all.folder, scratch.file("config"));
     EXPECT_EQ(request("[world]\nprocess = [\"mine\"]\n").patience, 60);
+    WorldRequest const of_a_run =
+        request("[world]\nlibrary = \"/w/mine.so\"\nprocess = []\npatience = 60.0\nfolder = \"/w\"\nsettings = {}\n");
+    EXPECT_EQ(of_a_run.name, "/w/mine.so");
+    EXPECT_EQ(of_a_run.folder, "/w");
     auto const refused = [&](std::string const& text) { return complaint_of<UsageError>([&] { request(text); }); };
     EXPECT_THAT(refused("[world]\nprocess = []\n"), HasSubstr("it names no program"));
     EXPECT_THAT(refused("[world]\nprocess = \"mine.py\"\n"), HasSubstr("an array of strings is expected"));

@@ -1,3 +1,4 @@
+#include <lore/core/error.h>
 #include <lore/world/contract.h>
 #include <lore/world/open.h>
 

@@ -1,17 +1,5 @@
 // Replay: a world's scene as an image behind the path, a dot where the slider says.
-const replays = JSON.parse(document.getElementById("replay-data")?.textContent ?? "[]");
-if (replays.length > 0) {
-  const stage = document.getElementById("replay-stage");
-  const slider = document.getElementById("replay-slider");
-  const chooser = document.getElementById("replay-chooser");
-  const play = document.getElementById("replay-play");
-  const state = document.getElementById("replay-state");
-  const make = (name, attributes, parent = stage) => {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-    parent.append(element);
-    return element;
-  };
+@LORE_REPLAY_BEGIN@
   // Pale for the lowest value to blue for the highest; gray where the knowledge base does not find the window.
   const shade = (value, least, most) => {
     if (value === null) return "#bbbbbb";
@@ -56,23 +44,4 @@ if (replays.length > 0) {
       (value === undefined ? "" : value === null ? ", window not in the knowledge base" : `, value ${value}`);
   }
 
-  function stop() {
-    if (timer !== null) clearInterval(timer);
-    timer = null;
-    play.textContent = "Play";
-  }
-
-  slider.addEventListener("input", () => { stop(); show(); });
-  chooser.addEventListener("change", () => { stop(); open(replays[Number(chooser.value)]); });
-  play.addEventListener("click", () => {
-    if (timer !== null) return stop();
-    if (Number(slider.value) >= Number(slider.max)) slider.value = 0;
-    play.textContent = "Pause";
-    timer = setInterval(() => {
-      slider.value = Number(slider.value) + 4;
-      show();
-      if (Number(slider.value) >= Number(slider.max)) stop();
-    }, 33);
-  });
-  open(replays[0]);
-}
+@LORE_REPLAY_END@
