@@ -208,18 +208,18 @@ LORE_INLINE void sense(LaneWork& work, int at, int step) {
     static_assert(sizeof continuous == continuous_sensor_count * sizeof(F), "a value for every continuous sensor");
     I word{};
     for (int b = 0; b < binary_count; ++b) {
-        lanes::store(work.neurons + sensors.binary[b] * row + at, ones_where(binary[b]));
+        lanes::store(work.buffers.neurons + sensors.binary[b] * row + at, ones_where(binary[b]));
         word |= binary[b] & (1 << b);
     }
     for (int c = 0; c < continuous_sensor_count; ++c) {
-        lanes::store(work.neurons + sensors.continuous[c] * row + at, continuous[c]);
-        lanes::store(work.values + (step * continuous_count + c) * row + at, continuous[c]);
+        lanes::store(work.buffers.neurons + sensors.continuous[c] * row + at, continuous[c]);
+        lanes::store(work.buffers.values + (step * continuous_count + c) * row + at, continuous[c]);
         word |= (continuous[c] > 0.5f) & (1 << (binary_count + c));
     }
     lanes::store(work.word + at, word);
     lanes::store(work.in_reach + at, sees(lights.in_reach, arena.ball_mask | arena.switch_mask));
-    lanes::store(work.trail_x + step * row + at, x);
-    lanes::store(work.trail_y + step * row + at, y);
+    lanes::store(work.buffers.x + step * row + at, x);
+    lanes::store(work.buffers.y + step * row + at, y);
     work.touchable[at / width] = static_cast<WallSet>(lanes::reduce_or(known.touchable));
 }
 
@@ -275,16 +275,16 @@ void run(LaneWork& work, int first, int last) {
     for (int step = first; step < last; ++step) {
         work.step = step;
         for (int at = 0; at < end; at += width) sense(work, at, step);
-        float* const effectors = work.values + (step * continuous_count + continuous_sensor_count) * row;
-        tick_lanes<width, vectors>(work.networks, sensor_count, effector_count, {work.neurons, work.next_hidden},
-                                   effectors);
+        float* const effectors = work.buffers.values + (step * continuous_count + continuous_sensor_count) * row;
+        tick_lanes<width, vectors>(work.buffers.networks, sensor_count, effector_count,
+                                   {work.buffers.neurons, work.buffers.next_hidden}, effectors);
         for (int at = 0; at < end; at += width) {
             F const collect = lanes::load<F>(effectors + effector_place(Channel::collect) * row + at);
             I word = lanes::load<I>(work.word + at);
             for (int e = 0; e < effector_count; ++e)
                 word |= (lanes::load<F>(effectors + e * row + at) > 0.5f) &
                         (1 << (binary_count + continuous_sensor_count + e));
-            lanes::store(work.words + step * row + at, __builtin_convertvector(word, Words));
+            lanes::store(work.buffers.words + step * row + at, __builtin_convertvector(word, Words));
             act(work, at, collect);
         }
         for (int at = 0; at < end; at += width)
@@ -296,7 +296,7 @@ void run(LaneWork& work, int first, int last) {
 }   // namespace
 
 void run_steps(LaneWork& work, int first, int last) {
-    if (work.vectors == 1) run<1>(work, first, last);
+    if (work.buffers.vectors == 1) run<1>(work, first, last);
     else run<lane_vectors>(work, first, last);
 }
 

@@ -3,7 +3,7 @@
 #include <lore/collectball/shapes.h>
 #include <lore/collectball/channels.h>
 #include <lore/core/isa.h>
-#include <lore/episode/lane_tick.h>
+#include <lore/episode/lane_buffers.h>
 
 #include <cstdint>
 
@@ -70,17 +70,9 @@ struct alignas(64) LaneWork {
     std::int32_t word[lane_slots], in_reach[lane_slots];
     std::uint32_t touchable[lane_vectors];
 
-    int step;      ///< row of the chunk, for `act`
-    int vectors;   ///< that hold a running lane, 1 or lane_vectors; rows are as long in any case
+    int step;   ///< row of the chunk, for `act`
     LaneArena arena;
-    LaneNetworks networks;
-    float* neurons;       ///< [source][lane]: inputs, then hidden neurons
-    float* next_hidden;   ///< [hidden][lane]
-
-    float* values;   ///< the chunk's buffers, see LaneChunk
-    std::uint16_t* words;
-    float* trail_x;
-    float* trail_y;
+    LaneBuffers buffers;
 
     /// Called where a lane's robot picks up, releases or presses: applies the rules to the lane's world and writes back
     /// carrying, door_open, switch_lit, balls_mask and switch_timer. Those are as before the step's action.
