@@ -2,7 +2,9 @@
 
 #include <lore/collectball/collectball.h>
 #include <lore/core/error.h>
+#include <lore/maze/maze.h>
 
+#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -25,10 +27,15 @@ void refuse_settings_of_collectball(ExperimentConfig const& config) {
 
 }   // namespace
 
+std::span<BuiltinWorld const> builtin_worlds() {
+    static std::array const worlds{collectball_world, maze_world};
+    return worlds;
+}
+
 std::string arena_text_of(ExperimentConfig const& config) { return config.has_world() ? "" : arena_text(config.arena); }
 
 std::vector<std::string> world_files(ExperimentConfig const& config) {
-    if (config.has_world()) return files_of(config.world, {&collectball_world, 1});
+    if (config.has_world()) return files_of(config.world, builtin_worlds());
     // Else the name of an arena that is built in.
     return std::filesystem::is_regular_file(config.arena) ? std::vector{config.arena} : std::vector<std::string>{};
 }
@@ -41,7 +48,7 @@ RunWorld open_run_world(ExperimentConfig const& config, std::string_view arena_t
     refuse_settings_of_collectball(config);
     if (!config.world.name.empty() && !config.world.process.empty())
         throw UsageError("world.process is set", "the world is a library already", "Name one of both.");
-    OpenedWorld opened = open_world(config.world, {&collectball_world, 1});
+    OpenedWorld opened = open_world(config.world, builtin_worlds());
     return {std::move(opened.world), std::move(opened.origin)};
 }
 

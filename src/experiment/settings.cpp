@@ -173,8 +173,8 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
 
     d.section("world");
     // As with the arena, what lies there counts, and the checksum of a library is compared.
-    d.add("library", config.world.name, "a shared library (docs/manual/worlds.md); empty: the arena above",
-          Affects::nothing);
+    d.add("library", config.world.name,
+          "a built-in world, or a shared library (docs/manual/worlds.md); empty: the arena above", Affects::nothing);
     d.add("process", config.world.process, "or a program that serves a world, with its arguments");
     d.add("patience", config.world.patience, 0.001, 86400.0, "with a process: the longest that an answer may take [s]",
           Affects::nothing);

@@ -12,7 +12,7 @@ import sys
 
 # The report reads what a campaign has left; the campaign's step "replay" simulates. Neither a file of the report nor a
 # header of its own or the campaign's that it includes may include these.
-READERS = {"report": ["episode", "collectball"]}
+READERS = {"report": ["episode", "collectball", "maze"]}
 FOLLOWED = ["report", "campaign"]
 
 # Who may include a foreign header: modules, or single files. Programs (tools/) may include CLI11 and fmt.

@@ -124,8 +124,10 @@ void shaping(benchmark::State& state) {
 
 using IndexMaker = std::unique_ptr<FeatureIndex> (*)(KnowledgeConfig const&);
 
-std::unique_ptr<FeatureIndex> flann_128_for(KnowledgeConfig const& config) { return make_flann_index(config, 4, 128); }
-std::unique_ptr<FeatureIndex> flann_32_for(KnowledgeConfig const& config) { return make_flann_index(config, 4, 32); }
+template <int checks>
+std::unique_ptr<FeatureIndex> flann_for(KnowledgeConfig const& config) {
+    return make_flann_index(config, 4, checks);
+}
 
 void continuous(benchmark::State& state, IndexMaker make, std::size_t stride, bool final) {
     SmoothBase const& base = smooth_base();
@@ -158,8 +160,9 @@ void register_continuous() {
     };
     for (Case const& one : {Case{"exact_growing", make_exact_index, 1, false},
                             {"exact_final", make_exact_index, 1, true},
-                            {"flann_4x32", flann_32_for, 4, false},
-                            {"flann_4x128", flann_128_for, 4, false},
+                            {"flann_4x32", flann_for<32>, 4, false},
+                            {"flann_4x128", flann_for<128>, 4, false},
+                            {"flann_4x512", flann_for<512>, 4, false},
                             {"scan", make_scan_index, 100, false}})
         benchmark::RegisterBenchmark(("knowledge/continuous/" + std::string{one.name}).c_str(), continuous, one.make,
                                      one.stride, one.final)

@@ -34,8 +34,8 @@ install(FILES ${PROJECT_BINARY_DIR}/lore.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/
 install(DIRECTORY jobs/batch jobs/campaigns jobs/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs
   USE_SOURCE_PERMISSIONS)
 install(PROGRAMS jobs/quickstart DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/jobs)
-install(DIRECTORY docs/examples/pendulum docs/examples/maze docs/examples/pusher docs/examples/runner
-  docs/examples/newcomers DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples
+install(DIRECTORY docs/examples/pendulum docs/examples/pusher docs/examples/runner docs/examples/newcomers
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples
   FILES_MATCHING PATTERN "*.c" PATTERN "*.cpp" PATTERN "*.toml" PATTERN CMakeLists.txt)
 # With the module that serves it: the folder can be copied.
 install(DIRECTORY docs/examples/cartpole DESTINATION ${CMAKE_INSTALL_DATADIR}/lore/examples

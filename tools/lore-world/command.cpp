@@ -1,8 +1,6 @@
 #include "command.h"
 
-#include <lore/collectball/collectball.h>
-
-#include <array>
+#include <lore/experiment/run_world.h>
 
 #include <fmt/format.h>
 
@@ -11,7 +9,7 @@ namespace lore::world {
 void add_world(CLI::App* command, WorldOptions& options) {
     command->add_option("WORLD", options.world,
                         "path of a library (with a '/'), name of one to look for, or built-in world and its task "
-                        "(collectball:source)");
+                        "(collectball:source, maze:hard)");
     command->add_option("--config", options.config,
                         "configuration whose [world] names the library or the process and holds its settings");
 }
@@ -34,10 +32,7 @@ WorldRequest request_for(WorldOptions const& options) {
     return request;
 }
 
-OpenedWorld open_world(WorldRequest const& request) {
-    std::array const builtins{collectball_world};
-    return lore::open_world(request, builtins);
-}
+OpenedWorld open_world(WorldRequest const& request) { return lore::open_world(request, builtin_worlds()); }
 
 std::string called(OpenedWorld const& opened) {
     std::string const name = title(opened.world->facts()), origin = text(opened.origin);

@@ -4,11 +4,15 @@
 #include <lore/experiment/config.h>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lore {
+
+/// The worlds of this program: collectball and maze.
+std::span<BuiltinWorld const> builtin_worlds();
 
 /// The world of a run, opened, and where it came from.
 struct RunWorld {

@@ -1,5 +1,5 @@
-// Worlds in C, from a configuration to knowledge that serves another task: on any number of ranks, with any instruction
-// set, after kills; and what a run refuses.
+// Worlds of one's own and the built-in maze, from a configuration to knowledge that serves another task: on any number
+// of ranks, with any instruction set, after kills; and what a run refuses.
 
 #include "system/evolve_command.h"
 
@@ -38,7 +38,7 @@ TEST_F(Worlds, give_one_run_on_any_number_of_ranks_with_any_instruction_set_and_
     for (auto const& [library, settings] : {std::pair{"pendulum", "task = \"short_pole\""},
                                             {"maze", "maze = \"medium\", reward = \"way\""},
                                             {"trial", ""}}) {
-        bring(library);
+        if (std::string_view{library} != "maze") bring(library);
         std::string const config = configuration(library, library, settings), run = scratch.file(library);
         std::string const expected = signature_of_run(evolve(config, run + "1"));
         for (int const ranks : {2, 3, 5}) {
@@ -83,7 +83,6 @@ TEST_F(Worlds, give_knowledge_of_a_source_task_that_serves_a_target_task) {
 
 TEST_F(Worlds, of_other_channels_refuse_knowledge_and_founders_in_one_line_and_write_nothing) {
     bring("pendulum");
-    bring("maze");
     std::string const pole = configuration("pole", "pendulum", ""), maze = configuration("maze", "maze", "");
     std::string const run = scratch.file("run"), base = scratch.file("base.lorekb"), never = scratch.file("never");
     expect_done(evolve(pole, run));
@@ -155,6 +154,8 @@ TEST_F(Worlds, that_cannot_be_had_are_refused_before_anything_is_written) {
                    "its sensor_count is 65");
     expect_refusal(evolve(configuration("f", "trial", ""), never, {"--set", "limits.max_edges=5"}), 2,
                    "limits.max_edges is too small");
+    expect_refusal(evolve(configuration("m", "maze", "maze = \"soft\""), never), 2, "there is no maze 'soft'");
+    expect_refusal(evolve(configuration("n", "maze", "walls = 3"), never), 2, "walls (unknown key)");
     expect_refusal(evolve(configuration("g", "trial", ""), never, {"--set", "task=target"}), 2, "task is set");
     EXPECT_FALSE(exists(never));
 }
