@@ -120,6 +120,13 @@ void check(ExperimentConfig const& config, std::string const& name) {
     if ((root & (root - 1)) != 0)
         refuse("mutation.eta", fmt::format("{} + 1 is not a power of two", evolution.mutation.eta),
                "Take 15, as the paper does, or 7 or 31.");
+    WorldRequest const& world = config.world;
+    if (!world.process.empty() && !world.name.empty())
+        refuse("world.process", "the world is a library already", "Name one of both.");
+    if (!world.process.empty() && world.process[0].empty())
+        refuse("world.process", "it names no program", "Write [\"python3\", \"mine.py\"], for example.");
+    if (world.process.empty() && world.patience != WorldRequest{}.patience)
+        refuse("world.patience", "only a process has a time limit", "Remove it, or name a 'process'.");
     if (config.knowledge.window_length > config.episode.steps)
         refuse("knowledge.window_length",
                fmt::format("{} is more than the {} steps of an evaluation", config.knowledge.window_length,

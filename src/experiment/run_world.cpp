@@ -46,8 +46,6 @@ RunWorld open_run_world(ExperimentConfig const& config, std::string_view arena_t
                                                    config.stop_when_still),
                 {}};
     refuse_settings_of_collectball(config);
-    if (!config.world.name.empty() && !config.world.process.empty())
-        throw UsageError("world.process is set", "the world is a library already", "Name one of both.");
     OpenedWorld opened = open_world(config.world, builtin_worlds());
     return {std::move(opened.world), std::move(opened.origin)};
 }

@@ -3,7 +3,6 @@
 #include <lore/core/checksum.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
-#include <lore/core/toml.h>
 #include <lore/world/library.h>
 
 #include <algorithm>
@@ -82,29 +81,6 @@ OpenedWorld open_process(WorldRequest const& request) {
 }
 
 }   // namespace
-
-WorldRequest read_world_request(std::string const& config_file) {
-    TomlTable const file = TomlTable::read_file(config_file);
-    WorldRequest request;
-    request.folder = fs::path{config_file}.parent_path().string();
-    if (auto const world = file.table("world")) {
-        request.name = world->string("library").value_or("");
-        request.process = world->strings("process").value_or(std::vector<std::string>{});
-        // config.toml of a run has all keys, and those of what the world is not are empty.
-        bool const by_library = !request.name.empty(), by_process = !request.process.empty();
-        if (world->has("process") && !by_library && (!by_process || request.process[0].empty()))
-            world->fail("process", "it names no program", "Write [\"python3\", \"mine.py\"], for example.");
-        if (by_library && by_process) world->fail("process", "the world is a library already", "Name one of both.");
-        if (world->has("patience") && !world->has("process"))
-            world->fail("patience", "only a process has a time limit", "Remove it, or name a 'process'.");
-        if (auto const folder = world->string("folder"); folder && !folder->empty())
-            request.folder = (fs::path{request.folder} / *folder).string();
-        request.patience = world->number("patience", 0.001, 86400).value_or(request.patience);
-        if (auto const settings = world->table("settings")) request.settings = settings->lines();
-        world->reject_unknown();
-    }
-    return request;
-}
 
 std::string text(WorldOrigin const& origin) {
     return origin.command.empty() ? origin.file : fmt::format("{}", fmt::join(origin.command, " "));

@@ -120,7 +120,7 @@ TEST_F(LoreWorld, ends_with_the_name_of_a_process_that_goes_wrong) {
     write("refused.toml", "[world]\nprocess = [\"no-such-program\"]\n");
     expect_refusal("info --config refused.toml", 2, "cannot start no-such-program (No such file or directory)");
     write("both.toml", "[world]\nprocess = [\"sh\"]\nlibrary = \"trial\"\n");
-    expect_refusal("info --config both.toml", 2, "both.toml, line 2: world.process (the world is a library already)");
+    expect_refusal("info --config both.toml", 2, "both.toml: world.process (the world is a library already)");
 }
 
 TEST_F(LoreWorld, shows_the_facts_as_text_and_json) {

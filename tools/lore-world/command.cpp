@@ -2,6 +2,8 @@
 
 #include <lore/experiment/run_world.h>
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 namespace lore::world {
@@ -16,7 +18,10 @@ void add_world(CLI::App* command, WorldOptions& options) {
 
 WorldRequest request_for(WorldOptions const& options) {
     WorldRequest request;
-    if (!options.config.empty()) request = read_world_request(options.config);
+    if (!options.config.empty()) {
+        request = read_config(options.config).world;
+        if (request.folder.empty()) request.folder = std::filesystem::path{options.config}.parent_path().string();
+    }
     if (!options.world.empty()) {
         request.name = options.world;
         request.process.clear();

@@ -24,11 +24,6 @@ struct WorldRequest {
     double patience = WorldProcess{}.patience;   ///< with it [s]
 };
 
-/// The table [world] of a configuration file, config.toml of a run included: `library`, or `process` and `patience`;
-/// `folder`, `settings`. No name and no process where it has none. Looks at nothing else of the file. Throws
-/// UsageError.
-WorldRequest read_world_request(std::string const& config_file);
-
 /// A world of this program. `open` throws UsageError for an unknown task and for settings that it does not know.
 struct BuiltinWorld {
     std::string_view name;

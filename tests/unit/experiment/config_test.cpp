@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 using namespace lore;
 
 namespace {
@@ -206,6 +208,35 @@ TEST(Config, names_a_world_with_settings_that_come_back_and_can_be_overridden) {
     EXPECT_EQ(longer.world.settings, "length = 2\nmass = 0.5\ntask = \"short_pole\"\n");
     EXPECT_EQ(differing_result_settings(longer, config).size(), 1u) << "what the library is told affects results";
     EXPECT_FALSE(parse("").has_world());
+}
+
+TEST(Config, names_a_process_with_its_arguments_and_patience) {
+    ExperimentConfig const config = parse_config("[world]\nprocess = [\"python3\", \"mine.py\"]\npatience = 2.5\n"
+                                                 "[world.settings]\na = 1\n",
+                                                 "a.toml", "/jobs");
+    EXPECT_EQ(config.world.name, "");
+    EXPECT_EQ(config.world.process, (std::vector<std::string>{"python3", "mine.py"}));
+    EXPECT_EQ(config.world.patience, 2.5);
+    EXPECT_EQ(config.world.settings, "a = 1\n");
+    EXPECT_EQ(config.world.folder, "/jobs");
+    EXPECT_EQ(parse("[world]\nprocess = [\"mine\"]\n").world.patience, 60);
+    // As a run's config.toml has it.
+    EXPECT_EQ(
+        parse("[world]\nlibrary = \"/w/mine.so\"\nprocess = []\npatience = 60.0\nfolder = \"/w\"\nsettings = {}\n")
+            .world.folder,
+        "/w");
+}
+
+TEST(Config, refuses_a_world_of_both_kinds_and_what_belongs_to_none) {
+    for (auto const& [text, saying] : std::map<std::string, std::string>{
+             {"[world]\nprocess = [\"\"]\n", "it names no program"},
+             {"[world]\nprocess = \"mine.py\"\n", "an array of strings is expected"},
+             {"[world]\nprocess = [\"a\"]\nlibrary = \"b\"\n", "world.process (the world is a library already)"},
+             {"[world]\nlibrary = \"b\"\npatience = 3\n", "only a process has a time limit"},
+             {"[world]\nprocess = [\"a\"]\npatience = 0\n", "world.patience"},
+             {"[world]\nlibary = \"mine\"\n", "Did you mean 'world.library'?"},
+             {"world = \"mine\"\n", "a table is expected"}})
+        EXPECT_NE(complaint(text).find(saying), std::string::npos) << complaint(text);
 }
 
 TEST(Config, refuses_settings_of_collectball_beside_another_world) {

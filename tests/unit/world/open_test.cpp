@@ -91,46 +91,6 @@ TEST_F(OpenWorld, knows_built_in_worlds_by_name_and_task) {
                 HasSubstr("Did you mean 'inside'?"));
 }
 
-TEST_F(OpenWorld, reads_its_table_of_a_configuration_and_nothing_else) {
-    auto const request = [&](std::string const& text) {
-        std::ofstream{scratch.file("config/mine.toml")} << text;
-        return read_world_request(scratch.file("config/mine.toml"));
-    };
-    WorldRequest const all =
-        request("seed_of_something = 3\n[world]\nlibrary = \"mine\"\n[world.settings]\nb = 1\na = 2.5\n");
-    EXPECT_EQ(all.name, "mine");
-    EXPECT_EQ(all.settings, "a = 2.5\nb = 1\n");
-    EXPECT_EQ(all.folder, scratch.file("config"));
-    EXPECT_EQ(request("[evolution]\n").name, "");
-    EXPECT_THAT(complaint_of<UsageError>([&] { request("[world]\nlibary = \"mine\"\n"); }), HasSubstr("world.library"));
-    EXPECT_THAT(complaint_of<UsageError>([&] { request("world = \"mine\"\n"); }), HasSubstr("a table is expected"));
-}
-
-TEST_F(OpenWorld, reads_the_command_of_a_process) {
-    auto const request = [&](std::string const& text) {
-        std::ofstream{scratch.file("config/mine.toml")} << text;
-        return read_world_request(scratch.file("config/mine.toml"));
-    };
-    WorldRequest const all =
-        request("[world]\nprocess = [\"python3\", \"mine.py\"]\npatience = 2.5\n[world.settings]\na = 1\n");
-    EXPECT_EQ(all.name, "");
-    EXPECT_EQ(all.process, (std::vector<std::string>{"python3", "mine.py"}));
-    EXPECT_EQ(all.patience, 2.5);
-    EXPECT_EQ(all.settings, "a = 1\n");
-    EXPECT_EQ(all.folder, scratch.file("config"));
-    EXPECT_EQ(request("[world]\nprocess = [\"mine\"]\n").patience, 60);
-    WorldRequest const of_a_run =
-        request("[world]\nlibrary = \"/w/mine.so\"\nprocess = []\npatience = 60.0\nfolder = \"/w\"\nsettings = {}\n");
-    EXPECT_EQ(of_a_run.name, "/w/mine.so");
-    EXPECT_EQ(of_a_run.folder, "/w");
-    auto const refused = [&](std::string const& text) { return complaint_of<UsageError>([&] { request(text); }); };
-    EXPECT_THAT(refused("[world]\nprocess = []\n"), HasSubstr("it names no program"));
-    EXPECT_THAT(refused("[world]\nprocess = \"mine.py\"\n"), HasSubstr("an array of strings is expected"));
-    EXPECT_THAT(refused("[world]\nprocess = [\"a\"]\nlibrary = \"b\"\n"), HasSubstr("Name one of both"));
-    EXPECT_THAT(refused("[world]\nlibrary = \"b\"\npatience = 3\n"), HasSubstr("only a process has a time limit"));
-    EXPECT_THAT(refused("[world]\nprocess = [\"a\"]\npatience = 0\n"), HasSubstr("world.patience"));
-}
-
 TEST_F(OpenWorld, keeps_which_files_a_process_came_from) {
     std::string const script = std::string{LORE_SOURCE_DIR} + "/tests/support/worlds/trial_process.py";
     fs::copy_file(script, scratch.file("config/mine.py"));

@@ -1,4 +1,5 @@
 #include <lore/core/error.h>
+#include <lore/core/toml.h>
 #include <lore/world/contract.h>
 #include <lore/world/open.h>
 
@@ -32,7 +33,9 @@ protected:
 
     void expect_contract_kept(std::string const& task) const {
         std::string const file = std::string{LORE_SOURCE_DIR} + "/docs/examples/" + name_ + "/" + task + ".toml";
-        auto const open = [&] { return world(read_world_request(file).settings); };
+        std::string const settings =
+            TomlTable::read_file(file).required_table("world").required_table("settings").lines();
+        auto const open = [&] { return world(settings); };
         ContractReport const report = check_contract(*open(), open, {3, 200, 1});
         for (RuleReport const& rule : report.rules) EXPECT_TRUE(rule.kept) << task << ": " << rule.rule << rule.finding;
         EXPECT_TRUE(report.sample.effectors_matter);
