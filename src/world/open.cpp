@@ -55,7 +55,9 @@ BuiltinWorld const* builtin_of(std::string const& name, std::span<BuiltinWorld c
 }
 
 OpenedWorld open_builtin(BuiltinWorld const& builtin, WorldRequest const& request, std::string const& task) {
-    return {{"", 0, 0, request.settings}, builtin.open(task, request.settings)};
+    // Before the braces: g++ 12 destroys the first member twice where the second throws.
+    std::unique_ptr<World> world = builtin.open(task, request.settings);
+    return {{"", 0, 0, request.settings}, std::move(world)};
 }
 
 OpenedWorld open_process(WorldRequest const& request) {

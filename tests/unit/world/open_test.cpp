@@ -91,6 +91,14 @@ TEST_F(OpenWorld, knows_built_in_worlds_by_name_and_task) {
                 HasSubstr("Did you mean 'inside'?"));
 }
 
+TEST_F(OpenWorld, leaves_a_built_in_world_that_refuses_long_settings_with_the_reason) {
+    std::string const settings = "color = \"" + std::string(100, 'x') + "\"\n";
+    EXPECT_THAT(complaint_of<UsageError>([&] {
+                    open_world({"inside:other", settings, ""}, builtins);
+                }),
+                HasSubstr("no such task"));
+}
+
 TEST_F(OpenWorld, keeps_which_files_a_process_came_from) {
     std::string const script = std::string{LORE_SOURCE_DIR} + "/tests/support/worlds/trial_process.py";
     fs::copy_file(script, scratch.file("config/mine.py"));
