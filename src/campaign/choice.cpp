@@ -20,9 +20,10 @@ namespace {
 constexpr char rule[] =
     "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
     "level wished; ties: the lowest seed; runs that the campaign names are taken first";
+constexpr char most[] = "most";   ///< in place of a level, of a base with best_of
 
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {
-    return {knowledge.name, knowledge.wished_reward, run.run, run.seed, run.reward};
+    return {knowledge.name, knowledge.wished_reward, run.run, run.seed, run.reward, knowledge.best_run};
 }
 
 }   // namespace
@@ -41,7 +42,8 @@ ChosenRun const& Choice::of(std::string_view knowledge) const {
 
 bool Choice::covers(CampaignPlan const& plan) const {
     return std::all_of(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& knowledge) {
-        return knowledge.kind != KnowledgeKind::lineage || find(knowledge.name) != nullptr;
+        bool const counts = source.empty() || knowledge.source == source;
+        return knowledge.kind != KnowledgeKind::lineage || !counts || find(knowledge.name) != nullptr;
     });
 }
 
@@ -50,6 +52,7 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
     Choice choice;
     choice.chosen = before.chosen;
     choice.reward_unit = before.reward_unit;
+    choice.source = before.source;
     choice.considered = finished;
     choice.without = std::move(without);
     std::vector<SourceRun> free = finished;
@@ -65,7 +68,8 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
 
     std::vector<KnowledgePlan const*> wishes;
     for (KnowledgePlan const& knowledge : plan.knowledge)
-        if (knowledge.kind == KnowledgeKind::lineage && before.find(knowledge.name) == nullptr)
+        if (knowledge.kind == KnowledgeKind::lineage && knowledge.source == before.source &&
+            before.find(knowledge.name) == nullptr)
             wishes.push_back(&knowledge);
 
     for (KnowledgePlan const* wish : wishes) {
@@ -80,8 +84,10 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
     for (KnowledgePlan const* wish : wishes) {
         if (wish->run != 0) continue;
         auto const nearest = std::min_element(free.begin(), free.end(), [&](SourceRun const& a, SourceRun const& b) {
-            return std::tuple{std::abs(a.reward - wish->wished_reward), a.seed} <
-                   std::tuple{std::abs(b.reward - wish->wished_reward), b.seed};
+            auto const distance = [&](SourceRun const& run) {
+                return wish->best_run ? -run.reward : std::abs(run.reward - wish->wished_reward);
+            };
+            return std::tuple{distance(a), a.seed} < std::tuple{distance(b), b.seed};
         });
         if (nearest == free.end())
             throw Error(
@@ -99,11 +105,12 @@ void write_choice(std::string const& path, Choice const& choice) {
     document["rule"] = rule;
     document["chosen"] = nlohmann::ordered_json::array();
     for (ChosenRun const& entry : choice.chosen)
-        document["chosen"].push_back({{"knowledge", entry.knowledge},
-                                      {"wished", entry.wished},
-                                      {"run", entry.run},
-                                      {"seed", entry.seed},
-                                      {word, json_number<nlohmann::ordered_json>(entry.reward)}});
+        document["chosen"].push_back(
+            {{"knowledge", entry.knowledge},
+             {"wished", entry.best ? nlohmann::ordered_json(most) : nlohmann::ordered_json(entry.wished)},
+             {"run", entry.run},
+             {"seed", entry.seed},
+             {word, json_number<nlohmann::ordered_json>(entry.reward)}});
     document["considered"] = nlohmann::ordered_json::array();
     for (SourceRun const& run : choice.considered)
         document["considered"].push_back(
@@ -119,9 +126,12 @@ Choice read_choice(std::string const& path) {
         Choice choice;
         choice.reward_unit = document.value("reward_unit", choice.reward_unit);
         std::string const word{reward_word(choice.reward_unit)};
-        for (auto const& entry : document.at("chosen"))
-            choice.chosen.push_back({entry.at("knowledge"), entry.at("wished"), whole_number<int>(entry.at("run")),
-                                     whole_number<std::uint64_t>(entry.at("seed")), entry.at(word)});
+        for (auto const& entry : document.at("chosen")) {
+            bool const best = entry.at("wished") == most;
+            choice.chosen.push_back({entry.at("knowledge"), best ? 0 : entry.at("wished").get<double>(),
+                                     whole_number<int>(entry.at("run")), whole_number<std::uint64_t>(entry.at("seed")),
+                                     entry.at(word), best});
+        }
         for (auto const& run : document.at("considered"))
             choice.considered.push_back(
                 {whole_number<int>(run.at("run")), whole_number<std::uint64_t>(run.at("seed")), run.at(word)});

@@ -31,7 +31,7 @@ void read_options(TomlTable const& table, KnowledgePlan& plan) {
     plan.options = table.strings("options").value_or(Words{});
 }
 
-/// Of a base that Algorithm 1 makes: windows of its own.
+/// Windows of its own.
 void read_build(TomlTable const& table, KnowledgePlan& plan) {
     read_options(table, plan);
     for (std::string const& option : plan.options)
@@ -43,19 +43,31 @@ void read_build(TomlTable const& table, KnowledgePlan& plan) {
         plan.window_length = static_cast<int>(*steps);
 }
 
+/// Of a base from the best robot of a source run.
+void read_lineage(TomlTable const& table, KnowledgePlan& plan) {
+    plan.source = table.string("source").value_or("");
+    read_build(table, plan);
+}
+
 void read_counted_reward(TomlTable const& table, KnowledgePlan& plan) {
     plan.wished_reward = table.required_number(first_reward_unit, 0, 1e6);
-    read_build(table, plan);
+    read_lineage(table, plan);
 }
 
 void read_reward(TomlTable const& table, KnowledgePlan& plan) {
     plan.wished_reward =
         table.required_number("reward", std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max());
-    read_build(table, plan);
+    read_lineage(table, plan);
 }
 
 void read_run(TomlTable const& table, KnowledgePlan& plan) {
     plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
+    read_lineage(table, plan);
+}
+
+void read_best(TomlTable const& table, KnowledgePlan& plan) {
+    plan.source = table.required_string("best_of");
+    plan.best_run = true;
     read_build(table, plan);
 }
 
@@ -84,12 +96,12 @@ void read_reduction(TomlTable const& table, KnowledgePlan& plan) {
 
 // ---- what each kind waits for ----
 
-Words after_choice(KnowledgePlan const&, std::vector<Step>&) { return {"choose"}; }
+Words after_choice(KnowledgePlan const& knowledge, std::vector<Step>&) { return {choose_step(knowledge.source)}; }
 
 /// The source run is made once more and keeps all individuals.
 Words after_archive(KnowledgePlan const& knowledge, std::vector<Step>& steps) {
     std::string const archive = archive_step(knowledge.name);
-    steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, {"choose"}});
+    steps.push_back({archive, StepKind::archive, archive, knowledge.name, 0, after_choice(knowledge, steps)});
     return {archive};
 }
 
@@ -137,6 +149,7 @@ constexpr KnowledgeKindRow kinds[] = {
     {first_reward_unit, KnowledgeKind::lineage, true, false, read_counted_reward, after_choice, build_lineage},
     {"reward", KnowledgeKind::lineage, true, false, read_reward, after_choice, build_lineage},
     {"run", KnowledgeKind::lineage, true, false, read_run, after_choice, build_lineage},
+    {"best_of", KnowledgeKind::lineage, true, false, read_best, after_choice, build_lineage},
     {"lineage_of", KnowledgeKind::same_lineage, true, true, read_build, after_choice, build_same_lineage},
     {"all_of", KnowledgeKind::all, true, true, read_build, after_archive, build_all},
     {"random_of", KnowledgeKind::random, false, false, read_seed, after_bases, randomize},
@@ -172,8 +185,8 @@ KnowledgePlan read_knowledge(TomlTable const& table) {
 }
 
 std::string source_run_of(KnowledgePlan const& lineage, CommandContext const& context) {
-    int const run = context.choice == nullptr ? 0 : context.choice->of(lineage.name).run;
-    return context.directory.run(run_step("source", run));
+    ChosenRun const* const chosen = context.choice == nullptr ? nullptr : context.choice->find(lineage.name);
+    return context.directory.run(run_step(lineage.source, chosen == nullptr ? 0 : chosen->run));
 }
 
 std::string knowledge_step(std::string_view name) { return fmt::format("knowledge/{}", name); }

@@ -16,7 +16,7 @@ class TomlTable;
 struct CommandContext {
     CampaignPlan const& plan;
     CampaignDirectory const& directory;
-    Choice const* choice = nullptr;   ///< of source runs; null as long as it is not made
+    Choice const* choice = nullptr;   ///< of source runs; null as long as none is made
 };
 
 /// What sets one kind of knowledge base apart. A new kind is a word of KnowledgeKind, one row of the table in
@@ -34,10 +34,10 @@ struct KnowledgeKindRow {
 };
 
 std::span<KnowledgeKindRow const> knowledge_kinds();
-/// Lineage has three rows, which differ in how they are read.
+/// Lineage has four rows, which differ in how they are read.
 KnowledgeKindRow const& row_of(KnowledgeKind);
 
-/// One [[knowledge]] table. Other bases that it names are not looked at. Throws UsageError.
+/// One [[knowledge]] table. Other bases and the source that it names are not looked at. Throws UsageError.
 KnowledgePlan read_knowledge(TomlTable const&);
 
 /// The directory of the source run that a base with a wished reward or 'run' comes from; "?" for its number until it is

@@ -1,14 +1,13 @@
 #include <lore/campaign/plan.h>
 
-#include "knowledge_kinds.h"
+#include "knowledge_tables.h"
 #include "plan_reading.h"
+#include "transfer.h"
 #include "treatment_inputs.h"
 
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/toml.h>
-#include <lore/experiment/config.h>
-#include <lore/experiment/knowledge_building.h>
 
 #include <algorithm>
 #include <cassert>
@@ -41,12 +40,11 @@ Defaults read_defaults(TomlTable const& document) {
     return defaults;
 }
 
-/// All keys but `name`. Nothing that it names is looked at.
-Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::string name) {
+/// All keys but `name` and `config`. Nothing that it names is looked at.
+Treatment read_inputs(TomlTable const& table, Defaults const& defaults, std::string name) {
     Treatment treatment;
     treatment.name = std::move(name);
     treatment.label = table.string("label").value_or(treatment.name);
-    treatment.config = table.required_string("config");
     for (TreatmentInput const& input : treatment_inputs()) treatment.*input.name = table.string(input.key).value_or("");
     treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
     treatment.first_seed =
@@ -59,97 +57,82 @@ Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::
     return treatment;
 }
 
+/// All keys but `name`.
+Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::string name) {
+    std::string config = table.required_string("config");
+    Treatment treatment = read_inputs(table, defaults, std::move(name));
+    treatment.config = std::move(config);
+    return treatment;
+}
+
 // ---- the tables of the file: one function each ----
 
-void read_source(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
-    TomlTable const table = document.required_table("source");
-    plan.source = read_treatment(table, defaults, "source");
+/// Of runs that begin with nothing.
+void refuse_inputs(TomlTable const& table, Treatment const& treatment, std::string_view what) {
     for (TreatmentInput const& input : treatment_inputs())
-        if (!(plan.source.*input.name).empty())
-            table.fail(input.key, "the source treatment takes nothing from other steps", "Remove it.");
-    read_windows(table, plan.config_path(plan.source), plan.source.overrides);
+        if (!(treatment.*input.name).empty())
+            table.fail(input.key, fmt::format("the {} takes nothing from other steps", what), "Remove it.");
 }
 
-void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
-    Names bases;
-    for (KnowledgePlan const& former : plan.knowledge) bases.push_back(former.name);
-    require_new(table, knowledge.name, bases);
-    KnowledgeKindRow const& kind = row_of(knowledge.kind);
-    if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
-    for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
-    if (knowledge.run > plan.source.runs)
-        table.fail("run", fmt::format("there are only {} source runs", plan.source.runs),
-                   "Name one of them, or raise their number.");
-    if (kind.base_has_lineage && plan.knowledge_base(knowledge.base).kind != KnowledgeKind::lineage)
-        table.fail(kind.key, "it must name a knowledge base with 'balls', 'reward' or 'run'");
+void refuse_reserved(TomlTable const& table, std::string const& name) {
+    if (reserved_names.contains(name)) table.fail("name", fmt::format("'{}' is reserved", name), "Choose another.");
 }
 
-bool has_option(KnowledgePlan const& knowledge, std::string_view option) {
-    return std::any_of(knowledge.options.begin(), knowledge.options.end(),
-                       [&](std::string const& word) { return word.starts_with(option); });
+void read_source(TomlTable const& table, Defaults const& defaults, std::string name, CampaignPlan& plan) {
+    Treatment source = read_treatment(table, defaults, std::move(name));
+    refuse_inputs(table, source, "source treatment");
+    read_windows(table, plan.config_path(source), source.overrides);
+    plan.sources.push_back(std::move(source));
 }
 
-/// Discounts of which a base gathers returns so that those of `gamma` are among them. Those that its options name come
-/// on top.
-std::vector<double> gammas_with(double gamma, KnowledgePlan const& built) {
-    bool const has_own = has_option(built, "--gammas");
-    std::vector<double> gammas = built.gammas;
-    if (gammas.empty() && !has_own) gammas = default_gammas();
-    if (std::find(gammas.begin(), gammas.end(), gamma) != gammas.end()) return built.gammas;
-    gammas.insert(std::upper_bound(gammas.begin(), gammas.end(), gamma), gamma);
-    return gammas;
-}
-
-/// Has the base that the evidence comes from gather what the rule needs.
-void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, CampaignPlan& plan) {
-    std::string const from = built_base(plan, revalued).name;
-    KnowledgePlan& built = *std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
-                                         [&](KnowledgePlan const& k) { return k.name == from; });
-    ValueConfig const& value = revalued.value;
-    try {
-        check_evidence_of(built.kind == KnowledgeKind::all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
-    } catch (UsageError const& error) { table.fail("value", error.what()); }
-    if (value.rule == ValueRule::discounted_return) {
-        built.gammas = gammas_with(value.gamma, built);
-        if (built.gammas.size() > most_gammas)
-            table.fail("gamma", fmt::format("'{}' would need returns for more than {} gammas", from, most_gammas),
-                       "Revalue by fewer.");
+/// One table [source], whose runs are called that, or several [[source]] with names.
+void read_sources(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
+    if (!document.is_array("source")) {
+        read_source(document.required_table("source"), defaults, "source", plan);
+        return;
     }
-    if (!value.success_reward) return;
-    if (has_option(built, "--success"))
-        table.fail("success", fmt::format("the options of '{}' have --success", from), "Leave one of the two out.");
-    if (built.success_reward && built.success_reward != value.success_reward)
-        table.fail("success", fmt::format("'{}' counts successes of {} already", from, *built.success_reward),
-                   "Build another base for it.");
-    built.success_reward = value.success_reward;
+    for (TomlTable const& table : document.tables("source")) {
+        std::string name = read_name(table);
+        refuse_reserved(table, name);
+        require_new(table, name, names_of(plan.sources));
+        read_source(table, defaults, std::move(name), plan);
+    }
+    if (plan.sources.empty()) document.fail("source", "there is none", "Add a table [[source]].");
 }
 
-void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
-    for (TomlTable const& table : document.tables("knowledge")) {
-        KnowledgePlan knowledge = read_knowledge(table);
-        check_knowledge(table, knowledge, plan);
-        if (knowledge.kind == KnowledgeKind::revalued) ask_for_evidence(table, knowledge, plan);
-        plan.knowledge.push_back(std::move(knowledge));
+void read_tasks(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
+    for (TomlTable const& table : document.tables("target")) {
+        std::string name = read_name(table);
+        require_new(table, name, names_of(plan.tasks));
+        Treatment task = read_treatment(table, defaults, std::move(name));
+        refuse_inputs(table, task, "target task");
+        read_windows(table, plan.config_path(task), task.overrides);
+        task.target = task.name;
+        plan.tasks.push_back(std::move(task));
     }
-    auto const from_lineages = std::count_if(plan.knowledge.begin(), plan.knowledge.end(),
-                                             [](KnowledgePlan const& k) { return k.kind == KnowledgeKind::lineage; });
-    if (from_lineages > plan.source.runs)
-        document.fail("knowledge", fmt::format("{} knowledge bases need as many source runs, and there are {}",
-                                               from_lineages, plan.source.runs));
+}
+
+/// A treatment of a named target task has what the task says, unless it has its own.
+Treatment read_target_treatment(TomlTable const& table, std::string name, CampaignPlan const& plan) {
+    only_key(table, {"target", "config"});
+    std::string const target = table.required_string("target");
+    require_known(table, "target", target, names_of(plan.tasks));
+    Treatment const& task = plan.task(target);
+    Treatment treatment =
+        read_inputs(table, {task.runs, static_cast<std::int64_t>(task.first_seed), 0}, std::move(name));
+    treatment.config = task.config;
+    treatment.target = task.name;
+    treatment.overrides.insert(treatment.overrides.begin(), task.overrides.begin(), task.overrides.end());
+    return treatment;
 }
 
 void read_treatments(TomlTable const& document, Defaults const& defaults, CampaignPlan& plan) {
-    Names names{plan.source.name};
     for (TomlTable const& table : document.tables("treatment")) {
         std::string name = read_name(table);
-        if (reserved_names.contains(name)) table.fail("name", fmt::format("'{}' is reserved", name), "Choose another.");
-        Treatment treatment = read_treatment(table, defaults, std::move(name));
-        require_new(table, treatment.name, names);
-        read_windows(table, plan.config_path(treatment), treatment.overrides);
-        for (TreatmentInput const& input : treatment_inputs())
-            if (!(treatment.*input.name).empty()) input.fit(table, plan, treatment);
-        names.push_back(treatment.name);
-        plan.targets.push_back(std::move(treatment));
+        refuse_reserved(table, name);
+        Treatment treatment = table.has("target") ? read_target_treatment(table, std::move(name), plan)
+                                                  : read_treatment(table, defaults, std::move(name));
+        add_treatment(table, std::move(treatment), plan);
     }
 }
 
@@ -165,10 +148,9 @@ void check_against(TomlTable const& table, PoolPlan const& pool, CampaignPlan co
 }
 
 void read_pools(TomlTable const& document, CampaignPlan& plan) {
-    Names treatments;
-    for (Treatment const& treatment : plan.targets) treatments.push_back(treatment.name);
+    Names const treatments = names_of(plan.targets);
     Names comparable = treatments, names = treatments;
-    names.push_back(plan.source.name);
+    for (Treatment const& source : plan.sources) names.push_back(source.name);
     for (TomlTable const& table : document.tables("pool")) {
         PoolPlan pool;
         pool.name = read_name(table);
@@ -191,6 +173,15 @@ void read_pools(TomlTable const& document, CampaignPlan& plan) {
     }
 }
 
+/// A target task without treatments would be a mistake that shows nowhere.
+void refuse_idle_tasks(TomlTable const& document, CampaignPlan const& plan) {
+    for (Treatment const& task : plan.tasks)
+        if (std::none_of(plan.targets.begin(), plan.targets.end(),
+                         [&](Treatment const& treatment) { return treatment.target == task.name; }))
+            document.fail("target", fmt::format("no treatment has the target task '{}'", task.name),
+                          "Name it in a treatment, or add a table [transfer].");
+}
+
 Names read_order(TomlTable const& table, Names const& treatments) {
     auto order = table.strings("order");
     if (!order) return treatments;
@@ -202,8 +193,7 @@ Names read_order(TomlTable const& table, Names const& treatments) {
 }
 
 FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
-    Names bases;
-    for (KnowledgePlan const& knowledge : plan.knowledge) bases.push_back(knowledge.name);
+    Names const bases = names_of(plan.knowledge);
     FigurePlan figures;
     figures.trajectory = table.string("trajectory").value_or("");
     figures.figure5 = table.strings("figure5").value_or(Names{});
@@ -228,7 +218,7 @@ std::vector<double> read_levels(TomlTable const& table) {
 }
 
 void read_report(TomlTable const& document, CampaignPlan& plan) {
-    for (Treatment const& treatment : plan.targets) plan.report_order.push_back(treatment.name);
+    plan.report_order = names_of(plan.targets);
     auto const table = document.table("report");
     if (!table) return;
     plan.report_order = read_order(*table, plan.report_order);
@@ -249,14 +239,24 @@ void read_cluster(TomlTable const& document, CampaignPlan& plan) {
     table->reject_unknown();
 }
 
-}   // namespace
-
-Treatment const& CampaignPlan::treatment(std::string_view name) const {
-    if (source.name == name) return source;
-    auto const found = std::find_if(targets.begin(), targets.end(), [&](Treatment const& t) { return t.name == name; });
-    assert(found != targets.end());
+Treatment const& named(std::vector<Treatment> const& treatments, std::string_view name) {
+    auto const found =
+        std::find_if(treatments.begin(), treatments.end(), [&](Treatment const& t) { return t.name == name; });
+    assert(found != treatments.end());
     return *found;
 }
+
+}   // namespace
+
+bool CampaignPlan::is_source(std::string_view treatment) const {
+    return std::any_of(sources.begin(), sources.end(), [&](Treatment const& t) { return t.name == treatment; });
+}
+
+Treatment const& CampaignPlan::treatment(std::string_view name) const {
+    return named(is_source(name) ? sources : targets, name);
+}
+
+Treatment const& CampaignPlan::task(std::string_view name) const { return named(tasks, name); }
 
 KnowledgePlan const& CampaignPlan::knowledge_base(std::string_view name) const {
     auto const found =
@@ -283,6 +283,16 @@ std::string CampaignPlan::config_path(Treatment const& treatment) const {
     return (std::filesystem::path{directory} / treatment.config).lexically_normal().string();
 }
 
+std::vector<TaskGroup> task_groups(CampaignPlan const& plan) {
+    std::vector<TaskGroup> groups{{"", {}}};
+    for (Treatment const& task : plan.tasks) groups.push_back({task.name, {}});
+    for (TaskGroup& group : groups)
+        for (std::string const& name : plan.report_order)
+            if (plan.treatment(name).target == group.task) group.treatments.push_back(name);
+    if (!plan.tasks.empty()) std::erase_if(groups, [](TaskGroup const& group) { return group.treatments.empty(); });
+    return groups;
+}
+
 CampaignPlan read_campaign(std::string const& named) {
     std::string const path = current_path(named);
     TomlTable const document = TomlTable::read_file(path);
@@ -294,9 +304,14 @@ CampaignPlan read_campaign(std::string const& named) {
     plan.directory = std::filesystem::path{path}.parent_path().string();
     plan.title = document.required_string("title");
     Defaults const defaults = read_defaults(document);
-    read_source(document, defaults, plan);
+    read_sources(document, defaults, plan);
+    read_tasks(document, defaults, plan);
+    auto const transfer = read_transfer(document, plan);
+    if (transfer) add_transfer_bases(*transfer, plan);
     read_knowledge_bases(document, plan);
     read_treatments(document, defaults, plan);
+    if (transfer) add_transfer_treatments(*transfer, plan);
+    else refuse_idle_tasks(document, plan);
     read_pools(document, plan);
     read_report(document, plan);
     read_cluster(document, plan);

@@ -16,6 +16,14 @@ inline constexpr std::int64_t most_runs = 9999;
 inline constexpr std::int64_t most_generations = 10'000'000;
 inline constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max() / 2;
 
+/// In their order.
+template <class Named>
+std::vector<std::string> names_of(std::vector<Named> const& all) {
+    std::vector<std::string> names;
+    for (Named const& one : all) names.push_back(one.name);
+    return names;
+}
+
 /// The value of `name`, which goes into paths. Throws UsageError: absent, or not 1 to 40 letters, digits, '_' and '-'.
 std::string read_name(TomlTable const&);
 

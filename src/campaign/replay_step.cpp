@@ -26,19 +26,20 @@ namespace fs = std::filesystem;
 /// The finished source run that the figures show; "" if there is none yet.
 std::string source_run(CampaignPlan const& plan, CampaignDirectory const& directory) {
     if (plan.figures.trajectory.empty()) return "";
-    auto const choice = recorded_choice(directory);
+    std::string const& source = plan.knowledge_base(plan.figures.trajectory).source;
+    auto const choice = recorded_choice(directory, source);
     ChosenRun const* const shown = choice ? choice->find(plan.figures.trajectory) : nullptr;
     if (shown == nullptr) return "";
-    Step const step{
-        run_step(plan.source.name, shown->run), StepKind::evolve, plan.source.name, plan.source.name, shown->run, {}};
+    Step const step{run_step(source, shown->run), StepKind::evolve, source, source, shown->run, {}};
     return state_of(plan, directory, step, Locks::ignored).status == StepStatus::done ? step.name : "";
 }
 
-/// The finished target run with most reward, the first in the report's order among equals; "" if there is none yet.
-std::string best_target_run(CampaignPlan const& plan, CampaignDirectory const& directory) {
+/// The finished run of these treatments with most reward, the first among equals; "" if there is none yet.
+std::string best_run_of(std::vector<std::string> const& treatments, CampaignPlan const& plan,
+                        CampaignDirectory const& directory) {
     std::string best;
     double most = 0;
-    for (std::string const& name : plan.report_order) {
+    for (std::string const& name : treatments) {
         Treatment const& treatment = plan.treatment(name);
         for (int run = 1; run <= treatment.runs; ++run) {
             Step const step{run_step(name, run), StepKind::evolve, name, name, run, {}};
@@ -49,6 +50,15 @@ std::string best_target_run(CampaignPlan const& plan, CampaignDirectory const& d
         }
     }
     return best;
+}
+
+/// The best of each target task that has finished runs.
+std::vector<std::string> best_target_runs(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    std::vector<std::string> runs;
+    for (TaskGroup const& group : task_groups(plan))
+        if (std::string best = best_run_of(group.treatments, plan, directory); !best.empty())
+            runs.push_back(std::move(best));
+    return runs;
 }
 
 /// Panels that can be drawn: of the knowledge bases that are there.
@@ -147,8 +157,8 @@ std::optional<std::string> replay_is_due(CampaignPlan const& plan, CampaignDirec
         made = read_scenes(into);
     } catch (Error const&) { return "scene.json is damaged"; }
 
-    std::vector<std::string> runs{source};
-    if (std::string const target = best_target_run(plan, from); !target.empty()) runs.push_back(target);
+    std::vector<std::string> runs = best_target_runs(plan, from);
+    runs.insert(runs.begin(), source);
     if (runs.size() != made.replays.size()) return "there are other runs by now";
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (made.replays[i].run != runs[i] || made.replays[i].signature != signature_of(from, runs[i]))
@@ -179,8 +189,7 @@ void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, Campa
     RunDirectory const run = open_run(from.run(source));
     auto [replay, trace] = repeat(run, source, signature_of(from, source));
     all.replays.push_back(std::move(replay));
-    if (std::string const target = best_target_run(plan, from); !target.empty())
-        all.replays.push_back(replay_of(from, target));
+    for (std::string const& target : best_target_runs(plan, from)) all.replays.push_back(replay_of(from, target));
 
     bool const arenas = all_in_arenas(all.replays);
     all.panels = panels_to_draw(plan, from);

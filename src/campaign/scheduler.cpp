@@ -113,7 +113,7 @@ void Scheduler::start(Task& task) {
 
 /// Starts the program of a task whose lock is ours.
 void Scheduler::launch(Task& task) {
-    auto const choice = recorded_choice(directory_);
+    auto const choice = recorded_choices(plan_, directory_);
     auto const command = command_of(plan_, directory_, options_.launcher, task.step, choice ? &*choice : nullptr);
     std::string const product =
         task.is_run() ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
@@ -131,24 +131,28 @@ void Scheduler::choose(Task& task) {
     std::vector<SourceRun> finished;
     std::vector<int> without;
     std::string unit{first_reward_unit};
-    for (Step const& step : steps_of_group_.at("source")) {
+    Treatment const& source = plan_.treatment(task.step.subject);
+    for (Step const& step : steps_of_group_.at(source.name)) {
         StepState const state = state_of(plan_, directory_, step);
         if (state.status != StepStatus::done) {
             without.push_back(step.run);
             continue;
         }
-        finished.push_back({step.run, seed_of(plan_.source, step.run), state.best_reward});
+        finished.push_back({step.run, seed_of(source, step.run), state.best_reward});
         unit = state.reward_unit;
     }
     try {
-        auto const before = recorded_choice(directory_);
-        Choice choice = choose_runs(plan_, finished, without, before ? *before : Choice{});
+        auto const before = recorded_choice(directory_, source.name);
+        Choice none_yet;
+        none_yet.source = source.name;
+        Choice choice = choose_runs(plan_, finished, without, before.value_or(none_yet));
         choice.reward_unit = unit;
-        make_directory(std::filesystem::path{directory_.choice()}.parent_path().string());
-        write_choice(directory_.choice(), choice);
+        std::string const path = directory_.choice(source.name);
+        make_directory(std::filesystem::path{path}.parent_path().string());
+        write_choice(path, choice);
         for (ChosenRun const& chosen : choice.chosen)
-            board_.announce(fmt::format("{} comes from source run {} (seed {}, {})", chosen.knowledge, chosen.run,
-                                        chosen.seed, reward_text(chosen.reward, unit)));
+            board_.announce(fmt::format("{} comes from {} run {} (seed {}, {})", chosen.knowledge, source.name,
+                                        chosen.run, chosen.seed, reward_text(chosen.reward, unit)));
         task.phase = Phase::done;
     } catch (Error const& error) {
         task.phase = Phase::failed;

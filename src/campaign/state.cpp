@@ -95,9 +95,11 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
 }
 
 /// Whether the outcome of a step that is no run is on disk; if not, `reason` may say why it is to be made again.
-bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
-              std::optional<Choice> const& choice, std::string& reason) {
-    if (step.kind == StepKind::choose) return choice && choice->covers(plan);
+bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, std::string& reason) {
+    if (step.kind == StepKind::choose) {
+        auto const own = recorded_choice(directory, step.subject);
+        return own && own->covers(plan);
+    }
     if (step.kind == StepKind::build) return fs::exists(directory.knowledge(step.subject));
     auto const due = replay_is_due(plan, directory, directory);
     if (due) reason = *due;
@@ -111,9 +113,22 @@ std::string_view name(StepStatus status) {
     return names[status];
 }
 
-std::optional<Choice> recorded_choice(CampaignDirectory const& directory) {
-    if (!fs::exists(directory.choice())) return std::nullopt;
-    return read_choice(directory.choice());
+std::optional<Choice> recorded_choice(CampaignDirectory const& directory, std::string const& source) {
+    if (!fs::exists(directory.choice(source))) return std::nullopt;
+    Choice choice = read_choice(directory.choice(source));
+    choice.source = source;
+    return choice;
+}
+
+std::optional<Choice> recorded_choices(CampaignPlan const& plan, CampaignDirectory const& directory) {
+    std::optional<Choice> all;
+    for (Treatment const& source : plan.sources) {
+        auto const choice = recorded_choice(directory, source.name);
+        if (!choice) continue;
+        if (!all) all.emplace().source.clear();
+        all->chosen.insert(all->chosen.end(), choice->chosen.begin(), choice->chosen.end());
+    }
+    return all;
 }
 
 StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, Locks locks) {
@@ -122,13 +137,14 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         Treatment const& treatment = plan.treatment(step.subject);
         return run_state(plan, directory, step, treatment, seed_of(treatment, step.run), taken);
     }
-    auto const choice = recorded_choice(directory);
     if (step.kind == StepKind::archive) {
-        ChosenRun const* const origin = choice ? choice->find(plan.knowledge_base(step.subject).base) : nullptr;
-        StepState state =
-            run_state(plan, directory, step, plan.source, origin ? std::optional{origin->seed} : std::nullopt, taken);
+        KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
+        auto const choice = recorded_choice(directory, base.source);
+        ChosenRun const* const origin = choice ? choice->find(base.name) : nullptr;
+        StepState state = run_state(plan, directory, step, plan.treatment(base.source),
+                                    origin ? std::optional{origin->seed} : std::nullopt, taken);
         if (state.status != StepStatus::done || origin == nullptr) return state;
-        std::string const run = directory.run(step.name), source = directory.run(run_step("source", origin->run));
+        std::string const run = directory.run(step.name), source = directory.run(run_step(base.source, origin->run));
         if (!fs::exists(in(run, run_file::all_individuals))) {
             state.status = StepStatus::failed;
             state.reason = fmt::format("there is no {}", in(run, run_file::all_individuals));
@@ -140,9 +156,10 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         return state;
     }
     StepState state;
-    if (is_there(plan, directory, step, choice, state.reason)) {
+    if (is_there(plan, directory, step, state.reason)) {
         state.status = StepStatus::done;
         if (step.kind == StepKind::choose) {
+            auto const choice = recorded_choice(directory, step.subject);
             std::vector<std::string> words;
             for (ChosenRun const& chosen : choice->chosen)
                 words.push_back(fmt::format("{} from run {} ({})", chosen.knowledge, chosen.run,

@@ -60,11 +60,11 @@ std::vector<std::string> build_command(CommandContext const& context, Launcher c
     return command;
 }
 
-void add_runs(Treatment const& treatment, std::vector<Step>& steps) {
+void add_runs(CampaignPlan const& plan, Treatment const& treatment, std::vector<Step>& steps) {
     std::vector<std::string> after;
     for (TreatmentInput const& input : treatment_inputs()) {
         if ((treatment.*input.name).empty()) continue;
-        std::vector<std::string> const groups = input.prepare(treatment, steps);
+        std::vector<std::string> const groups = input.prepare(plan, treatment, steps);
         after.insert(after.end(), groups.begin(), groups.end());
     }
     for (int run = 1; run <= treatment.runs; ++run)
@@ -77,9 +77,18 @@ void add_build(KnowledgePlan const& knowledge, std::vector<Step>& steps) {
     steps.push_back({name, StepKind::build, name, knowledge.name, 0, after});
 }
 
+/// A source whose runs no base comes from needs no choice.
+void add_choice(CampaignPlan const& plan, Treatment const& source, std::vector<Step>& steps) {
+    if (std::none_of(plan.knowledge.begin(), plan.knowledge.end(),
+                     [&](KnowledgePlan const& knowledge) { return knowledge.source == source.name; }))
+        return;
+    std::string const name = choose_step(source.name);
+    steps.push_back({name, StepKind::choose, name, source.name, 0, {source.name}, true});
+}
+
 /// After all that the pictures of trajectories may show.
 void add_replay(CampaignPlan const& plan, std::vector<Step>& steps) {
-    std::vector<std::string> after{"choose"};
+    std::vector<std::string> after{choose_step(plan.knowledge_base(plan.figures.trajectory).source)};
     for (std::vector<std::string> const& names : {plan.figures.figure5, plan.figures.figure6})
         for (std::string const& name : names)
             if (std::find(after.begin(), after.end(), knowledge_step(name)) == after.end())
@@ -90,6 +99,10 @@ void add_replay(CampaignPlan const& plan, std::vector<Step>& steps) {
 }
 
 }   // namespace
+
+std::string choose_step(std::string_view source) {
+    return source == "source" ? "choose" : fmt::format("choose/{}", source);
+}
 
 std::string run_step(std::string_view treatment, int run) {
     return run == 0 ? fmt::format("{}/?", treatment) : fmt::format("{}/{:03}", treatment, run);
@@ -106,7 +119,9 @@ std::string CampaignDirectory::run(std::string_view step) const { return file(fm
 std::string CampaignDirectory::knowledge(std::string_view name) const {
     return file(fmt::format("knowledge/{}.lorekb", name));
 }
-std::string CampaignDirectory::choice() const { return file("knowledge/choice.json"); }
+std::string CampaignDirectory::choice(std::string_view source) const {
+    return file(source == "source" ? "knowledge/choice.json" : fmt::format("knowledge/choice-{}.json", source));
+}
 std::string CampaignDirectory::log(std::string_view step) const { return file(fmt::format("logs/{}.log", flat(step))); }
 std::string CampaignDirectory::lock(std::string_view step) const {
     return file(fmt::format("steps/{}.lock", flat(step)));
@@ -117,10 +132,10 @@ std::string CampaignDirectory::record(std::string_view step) const {
 
 std::vector<Step> steps_of(CampaignPlan const& plan) {
     std::vector<Step> steps;
-    add_runs(plan.source, steps);
-    if (!plan.knowledge.empty()) steps.push_back({"choose", StepKind::choose, "choose", "", 0, {"source"}, true});
+    for (Treatment const& source : plan.sources) add_runs(plan, source, steps);
+    for (Treatment const& source : plan.sources) add_choice(plan, source, steps);
     for (KnowledgePlan const& knowledge : plan.knowledge) add_build(knowledge, steps);
-    for (Treatment const& target : plan.targets) add_runs(target, steps);
+    for (Treatment const& target : plan.targets) add_runs(plan, target, steps);
     if (!plan.figures.trajectory.empty()) add_replay(plan, steps);
     return steps;
 }
@@ -163,9 +178,11 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
     }
     case StepKind::archive: {
         KnowledgePlan const& base = plan.knowledge_base(plan.knowledge_base(step.subject).base);
-        std::uint64_t const seed = choice == nullptr ? 0 : seed_of(plan.source, choice->of(base.name).run);
-        auto command = evolve_command(plan, launcher, plan.source, seed, directory.run(step.name));
-        if (choice == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = std::string{"?"};
+        Treatment const& source = plan.treatment(base.source);
+        ChosenRun const* const chosen = choice == nullptr ? nullptr : choice->find(base.name);
+        std::uint64_t const seed = chosen == nullptr ? 0 : seed_of(source, chosen->run);
+        auto command = evolve_command(plan, launcher, source, seed, directory.run(step.name));
+        if (chosen == nullptr) *(std::find(command.begin(), command.end(), "--seed") + 1) = std::string{"?"};
         command.insert(command.end(), {"--archive", "all"});
         return command;
     }

@@ -11,18 +11,13 @@ namespace lore {
 
 namespace {
 
-std::vector<std::string> names_of(std::vector<KnowledgePlan> const& knowledge) {
-    std::vector<std::string> names;
-    for (KnowledgePlan const& one : knowledge) names.push_back(one.name);
-    return names;
-}
-
 // ---- knowledge = "kb1": a base for the reward ----
 
 /// What `lore-kb build` will cut the windows of a base by: its own keys, else what its source run was configured with.
 KnowledgeConfig windows_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
     KnowledgePlan const& built = built_base(plan, knowledge);
-    KnowledgeConfig config = read_config(plan.config_path(plan.source), plan.source.overrides).knowledge;
+    Treatment const& source = plan.treatment(knowledge.source);
+    KnowledgeConfig config = read_config(plan.config_path(source), source.overrides).knowledge;
     config.window_length = built.window_length.value_or(config.window_length);
     if (built.match_threshold) config.match_threshold = static_cast<float>(*built.match_threshold);
     return config;
@@ -50,7 +45,7 @@ void fit_knowledge(TomlTable const& table, CampaignPlan const& plan, Treatment& 
                 windows_of(plan, plan.knowledge_base(treatment.knowledge)));
 }
 
-std::vector<std::string> after_knowledge(Treatment const& treatment, std::vector<Step>&) {
+std::vector<std::string> after_knowledge(CampaignPlan const&, Treatment const& treatment, std::vector<Step>&) {
     return {knowledge_step(treatment.knowledge)};
 }
 
@@ -63,7 +58,7 @@ std::vector<std::string> knowledge_arguments(Treatment const& treatment, Command
 void fit_clone(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
     require_known(table, "clone_of", treatment.clone_of, names_of(plan.knowledge));
 }
-std::vector<std::string> after_clone(Treatment const& treatment, std::vector<Step>&) {
+std::vector<std::string> after_clone(CampaignPlan const&, Treatment const& treatment, std::vector<Step>&) {
     return {knowledge_step(treatment.clone_of)};
 }
 std::vector<std::string> clone_arguments(Treatment const& treatment, CommandContext const& context) {
@@ -78,20 +73,33 @@ void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& tre
     if (!treatment.clone_of.empty())
         table.fail("policy_of", "founders come from one place, and there is clone_of", "Leave one of the two out.");
 }
-std::vector<std::string> after_policy(Treatment const&, std::vector<Step>&) { return {"choose"}; }
+std::vector<std::string> after_policy(CampaignPlan const& plan, Treatment const& treatment, std::vector<Step>&) {
+    return {choose_step(plan.knowledge_base(treatment.policy_of).source)};
+}
 std::vector<std::string> policy_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--founders", source_run_of(context.plan.knowledge_base(treatment.policy_of), context)};
 }
 
 constexpr TreatmentInput inputs[] = {
-    {"knowledge", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments},
-    {"clone_of", &Treatment::clone_of, fit_clone, after_clone, clone_arguments},
-    {"policy_of", &Treatment::policy_of, fit_policy, after_policy, policy_arguments},
+    {"knowledge", "shaping", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments},
+    {"clone_of", "clone", &Treatment::clone_of, fit_clone, after_clone, clone_arguments},
+    {"policy_of", "policy", &Treatment::policy_of, fit_policy, after_policy, policy_arguments},
 };
 
 }   // namespace
 
 std::span<TreatmentInput const> treatment_inputs() { return inputs; }
+
+void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& plan) {
+    std::vector<std::string> names{"source"};
+    for (Treatment const& source : plan.sources) names.push_back(source.name);
+    for (Treatment const& target : plan.targets) names.push_back(target.name);
+    require_new(table, treatment.name, names);
+    read_windows(table, plan.config_path(treatment), treatment.overrides);
+    for (TreatmentInput const& input : treatment_inputs())
+        if (!(treatment.*input.name).empty()) input.fit(table, plan, treatment);
+    plan.targets.push_back(std::move(treatment));
+}
 
 KnowledgeConfig read_windows(TomlTable const& table, std::string const& config_path,
                              std::vector<std::string> const& overrides) {

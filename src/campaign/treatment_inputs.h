@@ -17,17 +17,22 @@ namespace lore {
 /// names; nothing else asks which inputs there are.
 struct TreatmentInput {
     std::string_view key;
+    std::string_view method;        ///< what [transfer] calls it
     std::string Treatment::*name;   ///< what the key says; empty: the treatment does without
     /// Throws UsageError if the campaign, as read so far, has nothing of that name or nothing that fits; may add
     /// overrides to the treatment.
     void (*fit)(TomlTable const&, CampaignPlan const&, Treatment&);
     /// Adds the steps that this treatment alone needs before its runs, and returns the groups that the runs wait for.
-    std::vector<std::string> (*prepare)(Treatment const&, std::vector<Step>&);
+    std::vector<std::string> (*prepare)(CampaignPlan const&, Treatment const&, std::vector<Step>&);
     /// Of lore-evolve, after all others.
     std::vector<std::string> (*arguments)(Treatment const&, CommandContext const&);
 };
 
 std::span<TreatmentInput const> treatment_inputs();
+
+/// Adds a target treatment to the campaign as read so far. Throws UsageError, which names the table: a name that is
+/// taken, or an input that does not fit.
+void add_treatment(TomlTable const&, Treatment, CampaignPlan&);
 
 /// Knowledge settings of a treatment's configuration with these overrides. Throws UsageError, which names the
 /// campaign's file, for a mistake in the configuration.

@@ -99,6 +99,11 @@ void TomlTable::fail(std::string_view key, std::string_view reason, std::string_
 
 bool TomlTable::has(std::string_view key) const { return node_->find(key) != nullptr; }
 
+bool TomlTable::is_array(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    return node != nullptr && node->is_array();
+}
+
 std::vector<std::string> TomlTable::keys() const {
     std::vector<std::pair<toml::source_position, std::string>> found;
     for (auto const& [key, value] : *node_->table) found.emplace_back(key.source().begin, std::string{key.str()});

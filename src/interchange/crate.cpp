@@ -158,7 +158,8 @@ std::string date_of(PackOptions const& options, CrateActions const& told) {
 
 std::string description_of(CampaignPlan const& plan, Inventory const& inventory, PackOptions const& options,
                            CrateActions const& told) {
-    int planned = plan.source.runs;
+    int planned = 0;
+    for (Treatment const& source : plan.sources) planned += source.runs;
     for (Treatment const& treatment : plan.targets) planned += treatment.runs;
     std::string text = options.description.empty() ? "" : options.description + " ";
     text += fmt::format("A campaign of Lore, evolution of robot controllers with knowledge from earlier runs: {} runs "

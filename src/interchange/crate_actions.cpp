@@ -120,7 +120,8 @@ struct Story {
     void add_source_run(Json& list, std::string const& knowledge) const {
         ChosenRun const* const chosen = choice ? choice->find(knowledge) : nullptr;
         if (chosen != nullptr)
-            list.push_back(reference_to(entity_id(fmt::format("runs/{}/", run_step("source", chosen->run)))));
+            list.push_back(reference_to(
+                entity_id(fmt::format("runs/{}/", run_step(plan.knowledge_base(knowledge).source, chosen->run)))));
     }
     void add_action(Json action) {
         if (!agents.empty()) action["agent"] = agents;
@@ -134,7 +135,8 @@ std::string knowledge_path(std::string const& name) { return fmt::format("knowle
 Json inputs_of_run(Story& story, Step const& step, std::string const& id, Manifest const& manifest) {
     Json inputs = Json::array();
     bool const again = step.kind == StepKind::archive;
-    Treatment const& treatment = again ? story.plan.source : story.plan.treatment(step.subject);
+    Treatment const& treatment =
+        story.plan.treatment(again ? story.plan.knowledge_base(step.subject).source : step.subject);
     story.add_file(inputs, story.moved.config_path(treatment));
     if (auto const world = story.worlds.find(treatment.name); world != story.worlds.end())
         for (std::string const& place : world->second) story.add_file(inputs, place);
@@ -217,7 +219,7 @@ CrateActions crate_actions(CampaignPlan const& plan, CampaignDirectory const& di
     CrateActions told;
     Json by = Json::array();
     for (std::string const& agent : agents) by.push_back(reference_to(agent));
-    auto choice = recorded_choice(directory);
+    auto choice = recorded_choices(plan, directory);
     if (choice && !choice->covers(plan)) choice.reset();
     Story story{plan,
                 plan_in_pack(plan),

@@ -61,7 +61,8 @@ void add_world(ExperimentConfig const& config, std::string const& treatment, std
 
 std::vector<Input> inputs_of(CampaignPlan const& plan) {
     std::vector<Input> inputs{input_of(plan.path, plan.path, "")};
-    std::vector<Treatment> treatments{plan.source};
+    std::vector<Treatment> treatments = plan.sources;
+    treatments.insert(treatments.end(), plan.tasks.begin(), plan.tasks.end());   // [transfer] opens them all
     treatments.insert(treatments.end(), plan.targets.begin(), plan.targets.end());
     for (Treatment const& treatment : treatments) {
         std::string const path = plan.config_path(treatment);

@@ -63,13 +63,13 @@ struct Curve {
     double end() const { return rows.back()->generation; }
 };
 
-/// One a treatment that has runs: the source treatment's, if its reward has the same unit, then those of the report's
+/// One a treatment that has runs: those of source tasks whose reward has the same unit, then those of the report's
 /// order.
 std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     // Source runs may be longer than those on the target task, which the figure is about.
     int last = -1;
     for (CurveRow const& row : results.curves)
-        if (row.treatment != plan.source.name) last = std::max(last, row.generation);
+        if (!plan.is_source(row.treatment)) last = std::max(last, row.generation);
     if (last < 0) last = std::numeric_limits<int>::max();
 
     std::vector<Curve> curves;
@@ -83,7 +83,7 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
         curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
         curves.push_back(std::move(curve));
     };
-    add(plan.source, source_color, true);
+    for (Treatment const& source : plan.sources) add(source, source_color, true);
     for (std::size_t i = 0; i < plan.report_order.size(); ++i)
         add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
     return curves;
@@ -254,7 +254,8 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     double const bracket_height = 17, top = 30 + bracket_height * static_cast<double>(stack(brackets));
 
     double slot = 98;
-    for (Box const& box : boxes) slot = std::max(slot, text_width(box.label));
+    double const gap = plan.tasks.empty() ? 0 : 14;   // between labels, which say there what the knowledge is of
+    for (Box const& box : boxes) slot = std::max(slot, text_width(box.label) + gap);
     double const right = 64 + slot * static_cast<double>(std::max<std::size_t>(boxes.size(), 3));
     Frame frame{64, right, top, top + 340, 1, 1};
     if (counts) frame.y_most = std::max(1.0, highest) + 0.4;   // room for the highest points' radius

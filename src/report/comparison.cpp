@@ -1,5 +1,7 @@
 #include "comparison.h"
 
+#include "matrix.h"
+
 #include <lore/core/whole_number.h>
 #include <lore/statistics/holm.h>
 #include <lore/statistics/mann_whitney.h>
@@ -67,6 +69,32 @@ void add_pools(CampaignPlan const& plan, Results const& results, std::vector<Com
     document["planned"] = json_of(planned);
 }
 
+/// A campaign without [transfer] has a summary without it.
+void add_matrix(std::vector<MatrixField> const& fields, Json& document) {
+    if (fields.empty()) return;
+    document["transfer"] = Json::array();
+    for (MatrixField const& f : fields) {
+        Json entry{{"source", f.pair.source}, {"target", f.pair.target}};
+        if (!f.why.empty()) entry["why"] = f.why;
+        else
+            entry.update({{"treatment", f.pair.treatment},
+                          {"none", f.pair.none},
+                          {"unit", f.unit},
+                          {"generation", f.generation},
+                          {"n", f.n},
+                          {"n_none", f.n_none},
+                          {"difference", f.difference},
+                          {"difference_low", f.difference_band.low},
+                          {"difference_high", f.difference_band.high},
+                          {"a12", f.a12},
+                          {"a12_low", f.a12_band.low},
+                          {"a12_high", f.a12_band.high},
+                          {"p", f.p},
+                          {"p_holm", f.p_holm}});
+        document["transfer"].push_back(std::move(entry));
+    }
+}
+
 /// Of all of these together.
 void correct(std::vector<Comparison>& comparisons) {
     std::vector<double> p_values;
@@ -82,6 +110,7 @@ std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results con
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
         for (std::size_t j = i + 1; j < plan.report_order.size(); ++j) {
             std::string const &a = plan.report_order[i], &b = plan.report_order[j];
+            if (plan.treatment(a).target != plan.treatment(b).target) continue;
             auto const first = results.final_rewards(a), second = results.final_rewards(b);
             if (!first.empty() && !second.empty()) comparisons.push_back(compared(a, b, first, second));
         }
@@ -131,10 +160,18 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
     std::string const word{results.reward_word()};
     Json document;
     document["title"] = plan.title;
-    if (word != first_reward_unit) document["reward_unit"] = results.reward_unit(plan);
+    bool const several_units = results.has_several_units(plan);
+    if (word != first_reward_unit && !several_units) document["reward_unit"] = results.reward_unit(plan);
+    if (plan.sources.size() != 1 || plan.sources.front().name != "source") {
+        document["sources"] = Json::array();
+        for (Treatment const& source : plan.sources) document["sources"].push_back(source.name);
+    }
 
     auto describe = [&](Treatment const& treatment) {
         Json entry{{"treatment", treatment.name}, {"label", treatment.label}, {"runs_planned", treatment.runs}};
+        if (!treatment.target.empty()) entry["target"] = treatment.target;
+        if (several_units)
+            if (auto const unit = results.unit_of(treatment.name)) entry["reward_unit"] = *unit;
         auto const rewards = results.final_rewards(treatment.name);
         entry["runs"] = rewards.size();
         if (rewards.empty()) return entry;
@@ -162,9 +199,9 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
         }
         return entry;
     };
-    bool complete = static_cast<int>(results.final_rewards(plan.source.name).size()) == plan.source.runs;
-    document["treatments"] = Json::array({describe(plan.source)});
-    for (std::string const& name : plan.report_order) {
+    bool complete = true;
+    document["treatments"] = Json::array();
+    for (std::string const& name : all_treatments(plan)) {
         document["treatments"].push_back(describe(plan.treatment(name)));
         complete = complete && static_cast<int>(results.final_rewards(name).size()) == plan.treatment(name).runs;
     }
@@ -186,6 +223,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"at_greatest", base.at_greatest},
                                          {"shown_once", base.shown_once}});
     add_pools(plan, results, planned, document);
+    add_matrix(transfer_matrix(plan, results), document);
     if (results.leads.empty()) return document.dump(2) + "\n";
     document["leads"] = Json::array();
     for (LeadRow const& lead : results.leads)

@@ -14,13 +14,14 @@ struct Comparison {
     int n_a = 0, n_b = 0;
     double u = 0;        ///< Mann-Whitney, of `a`
     double p = 1;        ///< two-sided
-    double p_holm = 1;   ///< corrected over all pairs of this campaign's targets
+    double p_holm = 1;   ///< corrected over all pairs that this campaign compares
     double a12 = 0.5;    ///< probability that a run of `a` beats one of `b`
     Interval a12_band;   ///< its 95 % bootstrap interval; not in pvalues.csv
     bool exact = false;
 };
 
-/// All pairs of target treatments that have runs, in the report's order.
+/// All pairs of target treatments that have runs, in the report's order; where the campaign's file names target tasks,
+/// pairs of one task.
 std::vector<Comparison> compare_treatments(CampaignPlan const&, Results const&);
 std::string comparisons_csv(std::vector<Comparison> const&);
 

@@ -3,8 +3,10 @@
 #include "panels.h"
 #include "html.h"
 #include "page_parts.h"
+#include "matrix.h"
 #include "report_assets.h"
 #include "reward_words.h"
+#include "task_parts.h"
 
 #include <lore/campaign/choice.h>
 #include <lore/experiment/version.h>
@@ -23,6 +25,7 @@ namespace {
 std::string commands(CampaignPlan plan, Results const& results) {
     plan.directory.clear();
     Choice choice;
+    choice.source.clear();   // of all
     for (KnowledgeRow const& base : results.bases)
         if (base.kind == "lineage")
             choice.chosen.push_back({base.knowledge, 0, base.source_run, base.seed, base.reward});
@@ -40,19 +43,66 @@ std::string commands(CampaignPlan plan, Results const& results) {
     return text;
 }
 
-/// "" if this report does not have the figure.
-std::string figure(Figures const& figures, std::string const& name, Places const& of_caption = {}) {
+/// "" if this report does not have the figure. `block`: of the caption.
+std::string figure(Figures const& figures, std::string const& name, std::string_view block, Places const& of_caption) {
     auto const found = figures.find(name);
     if (found == figures.end()) return "";
-    std::string caption = filled(name, of_caption);
+    std::string caption = filled(block, of_caption);
     caption.pop_back();   // its line's end
     // In a page a document's own heading has no place, and ids must not repeat.
     std::string const svg = with_own_ids(found->second.substr(found->second.find("<svg")), fmt::format("{}-", name));
     return filled("figure", {{"name", name}, {"svg", svg}, {"caption", caption}});
 }
 
+std::string figure(Figures const& figures, std::string const& name, Places const& of_caption) {
+    return figure(figures, name, name, of_caption);
+}
+
+/// Of the rewards on all target tasks.
+RewardWords words_of(CampaignPlan const& plan, Results const& results) {
+    if (!results.has_several_units(plan)) return reward_words(results.reward_unit(plan));
+    return {"unit of reward",
+            "reward",
+            "reward",
+            "reward",
+            "so much reward",
+            "gets more reward",
+            "whose reward may be another"};
+}
+
+/// Figures 3 and 4, of each target task.
+std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
+    std::string text;
+    for (TaskPart const& part : parts) {
+        RewardWords const words = reward_words(part.results.reward_unit(part.plan));
+        Places const places{{"number_of", escaped(capital(words.number_of))},
+                            {"collected", escaped(capital(words.collected))},
+                            {"source", words.source},
+                            {"task", escaped(part.label)}};
+        std::string_view const of_task = part.task.empty() ? "" : "_task";
+        for (std::string const name : {"figure3", "figure4"})
+            text += figure(figures, part.figure(name), fmt::format("{}{}", name, of_task), places);
+    }
+    return text;
+}
+
+std::string matrix(CampaignPlan const& plan, Results const& results, Figures const& figures) {
+    if (plan.transfer.empty()) return "";
+    auto const fields = transfer_matrix(plan, results);
+    auto const shown =
+        std::count_if(fields.begin(), fields.end(), [](MatrixField const& field) { return field.why.empty(); });
+    Places const caption{{"fields", std::to_string(shown)},
+                         {"n", count_text(fields, &MatrixField::n)},
+                         {"n_none", count_text(fields, &MatrixField::n_none)},
+                         {"misfit", capital(misfit_word)}};
+    return filled("matrix_section",
+                  {{"figure", figure(figures, "matrix", caption)}, {"table", matrix_table(plan, fields)}});
+}
+
 std::string significance(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
     if (comparisons.empty()) return "";
+    if (!plan.tasks.empty())
+        return filled("significance_tasks", {{"pairs", pairs_table(plan, comparisons, "pairs", Spacing::dense)}});
     RewardWords const words = reward_words(results.reward_unit(plan));
     return filled("significance", {{"gets_more", escaped(words.gets_more)},
                                    {"square", p_value_square(plan, comparisons)},
@@ -63,14 +113,14 @@ std::string pools(CampaignPlan const& plan, Results const& results, std::vector<
     if (plan.pools.empty()) return "";
     std::string const tests =
         planned.empty() ? "" : filled("planned", {{"planned", pairs_table(plan, planned, "planned", Spacing::dense)}});
-    return filled("pools", {{"collected", escaped(capital(reward_words(results.reward_unit(plan)).collected))},
+    return filled("pools", {{"collected", escaped(capital(words_of(plan, results).collected))},
                             {"pools", pools_table(plan, results)},
                             {"planned", tests}});
 }
 
 /// A page without a dense table has the style of before there was one.
 std::string style(CampaignPlan const& plan, Results const& results) {
-    bool const plain = results.speeds.empty() && plan.pools.empty();
+    bool const plain = results.speeds.empty() && plan.pools.empty() && plan.tasks.empty();
     return std::string{report_css} + (plain ? "" : filled("dense", {}));
 }
 
@@ -86,13 +136,28 @@ std::string populations(CampaignPlan const& plan, Results const& results) {
                                                                {"populations", populations_table(plan, results)}});
 }
 
-std::string speeds(CampaignPlan const& plan, Results const& results) {
+/// A table a named target task: levels and lengths are those of the task.
+std::string speeds_by_task(std::vector<TaskPart> const& parts, std::string leads) {
+    std::string tables;
+    for (TaskPart const& part : parts) {
+        if (part.results.speeds.empty()) continue;
+        tables += filled("speed_task",
+                         {{"task", escaped(part.label)},
+                          {"unit", escaped(part.results.reward_unit(part.plan))},
+                          {"generations", std::to_string(part.results.speeds.front().generations)},
+                          {"speeds", speeds_table(part.plan, part.results, fmt::format("speeds-{}", part.task))}});
+    }
+    return filled("speed_tasks", {{"speeds", tables}, {"leads", std::move(leads)}});
+}
+
+std::string speeds(CampaignPlan const& plan, Results const& results, std::vector<TaskPart> const& parts) {
     if (results.speeds.empty()) return "";
-    RewardWords const words = reward_words(results.reward_unit(plan));
+    RewardWords const words = words_of(plan, results);
     Places const of_words{{"noun", words.noun}, {"unit", escaped(words.unit)}};
     Places of_leads = of_words;
     of_leads["leads"] = leads_table(plan, results);
     std::string const leads = results.leads.empty() ? "" : filled("leads", of_leads);
+    if (!plan.tasks.empty()) return speeds_by_task(parts, leads);
     std::vector<std::string> levels;
     for (TimeToLevel const& to : results.speeds.front().to) levels.push_back(reward_text(to.level));
     return filled("speed", {{"noun", words.noun},
@@ -112,7 +177,8 @@ std::string versions(Results const& results) {
 }
 
 std::size_t planned_runs(CampaignPlan const& plan) {
-    std::size_t planned = static_cast<std::size_t>(plan.source.runs);
+    std::size_t planned = 0;
+    for (Treatment const& source : plan.sources) planned += static_cast<std::size_t>(source.runs);
     for (Treatment const& target : plan.targets) planned += static_cast<std::size_t>(target.runs);
     return planned;
 }
@@ -132,7 +198,8 @@ int last_generation(Results const& results) {
 
 std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
                         std::vector<Comparison> const& planned, Figures const& figures) {
-    RewardWords const words = reward_words(results.reward_unit(plan));
+    RewardWords const words = words_of(plan, results);
+    std::vector<TaskPart> const parts = task_parts(plan, results, comparisons);
     std::size_t const runs = planned_runs(plan);
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
@@ -148,12 +215,11 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
          {"generation", std::to_string(last_generation(results))},
          {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
          {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
+         {"matrix", matrix(plan, results, figures)},
          {"collected", escaped(capital(words.collected))},
          {"treatments", treatments_table(plan, results)},
-         {"figure3",
-          figure(figures, "figure3", {{"number_of", escaped(capital(words.number_of))}, {"source", words.source}})},
-         {"figure4", figure(figures, "figure4", {{"collected", escaped(capital(words.collected))}})},
-         {"speed", speeds(plan, results)},
+         {"curves", curves(parts, figures)},
+         {"speed", speeds(plan, results, parts)},
          {"pools", pools(plan, results, planned)},
          {"significance", significance(plan, results, comparisons)},
          {"bases", bases(plan, results)},

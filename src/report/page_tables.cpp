@@ -61,15 +61,51 @@ std::string treatments_table(CampaignPlan const& plan, Results const& results) {
         Treatment const* treatment;
         std::vector<double> rewards;
     };
-    std::vector<Row> rows{{&plan.source, results.final_rewards(plan.source.name)}};
-    for (std::string const& name : plan.report_order)
+    std::vector<Row> rows;
+    for (std::string const& name : all_treatments(plan))
         rows.push_back({&plan.treatment(name), results.final_rewards(name)});
 
     std::vector<HtmlColumn<Row>> columns{{"treatment", [](Row const& r) { return r.treatment->label; }, true},
                                          {"runs", [](Row const& r) { return std::to_string(r.rewards.size()); }},
                                          {"planned", [](Row const& r) { return std::to_string(r.treatment->runs); }}};
+    if (results.has_several_units(plan))
+        columns.push_back(
+            {"unit", [&](Row const& r) { return results.unit_of(r.treatment->name).value_or(""); }, true});
     add_statistics(columns, results);
     return html_table("treatments", columns, rows);
+}
+
+std::string matrix_table(CampaignPlan const& plan, std::vector<MatrixField> const& fields) {
+    using Row = MatrixField;
+    using Text = std::function<HtmlCell(Row const&)>;
+    auto const if_any = [](Text const& text) {
+        return [=](Row const& f) { return f.why.empty() ? text(f) : HtmlCell{""}; };
+    };
+    std::vector<HtmlColumn<Row>> const columns{
+        {"knowledge of", [&](Row const& f) { return plan.treatment(f.pair.source).label; }, true},
+        {"runs on", [&](Row const& f) { return plan.task(f.pair.target).label; }, true},
+        {"with", if_any([](Row const& f) {
+             return HtmlCell{reward_text(f.mean), "", fmt::format("n = {}", f.n)};
+         })},
+        {"without", if_any([](Row const& f) {
+             return HtmlCell{reward_text(f.mean_none), "", fmt::format("n = {}", f.n_none)};
+         })},
+        {"difference", if_any([](Row const& f) {
+             return HtmlCell{difference_text(f), fmt::format("{}", f.difference), difference_band_text(f)};
+         })},
+        {"unit", if_any([](Row const& f) { return f.unit; }), true},
+        {"A12", if_any([](Row const& f) {
+             return HtmlCell{two_decimals(f.a12), fmt::format("{}", f.a12),
+                             fmt::format("{:.2f} .. {:.2f}", f.a12_band.low, f.a12_band.high)};
+         })},
+        {"p", if_any([](Row const& f) {
+             return HtmlCell{p_text(f.p), fmt::format("{}", f.p)};
+         })},
+        {"p (Holm)", if_any([](Row const& f) {
+             return HtmlCell{p_text(f.p_holm), fmt::format("{}", f.p_holm)};
+         })},
+        {"not run", [](Row const& f) { return f.why; }, true}};
+    return html_table("matrix-table", columns, fields, Spacing::dense);
 }
 
 std::string pools_table(CampaignPlan const& plan, Results const& results) {
@@ -169,7 +205,7 @@ std::string populations_table(CampaignPlan const& plan, Results const& results) 
     return html_table("populations", columns, results.populations);
 }
 
-std::string speeds_table(CampaignPlan const& plan, Results const& results) {
+std::string speeds_table(CampaignPlan const& plan, Results const& results, std::string_view id) {
     using Row = SpeedRow;
     auto const area_text = [counts = results.are_counts()](double value) {
         return counts ? fmt::format("{:.0f}", value) : reward_text(value);
@@ -192,7 +228,7 @@ std::string speeds_table(CampaignPlan const& plan, Results const& results) {
     }
     columns.push_back(
         {"area", [=](Row const& s) { return with_interval(s.area, s.area_low, s.area_high, area_text); }});
-    return html_table("speeds", columns, results.speeds, Spacing::dense);
+    return html_table(id, columns, results.speeds, Spacing::dense);
 }
 
 std::string leads_table(CampaignPlan const& plan, Results const& results) {

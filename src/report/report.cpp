@@ -1,8 +1,10 @@
 #include <lore/report/report.h>
 
 #include "chart.h"
-#include "panels.h"
+#include "matrix.h"
 #include "page.h"
+#include "panels.h"
+#include "task_parts.h"
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
@@ -21,7 +23,7 @@ namespace {
 /// The CSV files may be those of another campaign: every name in them must be known.
 void check_names(CampaignPlan const& plan, Results const& results) {
     auto const check_treatment = [&](std::string_view file, std::string_view name) {
-        if (name == plan.source.name ||
+        if (plan.is_source(name) ||
             std::find(plan.report_order.begin(), plan.report_order.end(), name) != plan.report_order.end())
             return;
         throw Error(fmt::format("cannot report with {}", plan.path),
@@ -60,8 +62,11 @@ void write_text(CampaignDirectory const& into, std::string_view name, std::strin
 
 Figures draw_figures(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
     Figures figures;
-    figures["figure3"] = draw_curves(plan, results);
-    figures["figure4"] = draw_boxplots(plan, results, comparisons);
+    for (TaskPart const& part : task_parts(plan, results, comparisons)) {
+        figures[part.figure("figure3")] = draw_curves(part.plan, part.results);
+        figures[part.figure("figure4")] = draw_boxplots(part.plan, part.results, part.comparisons);
+    }
+    if (!plan.transfer.empty()) figures["matrix"] = draw_matrix(plan, transfer_matrix(plan, results));
     for (std::string const figure : {"figure5", "figure6"})
         if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
     return figures;
@@ -70,7 +75,7 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, std::vect
 void write_figures(CampaignDirectory const& into, Figures const& figures) {
     // Figures of a former report that this one does not have would pass for its own.
     std::error_code ignored;
-    for (std::string const figure : {"figure5", "figure6"})
+    for (std::string const figure : {"figure3", "figure4", "figure5", "figure6", "matrix"})
         for (std::string const kind : {"svg", "png"})
             if (!figures.contains(figure)) {
                 std::error_code ignored;   // it may not be there
@@ -89,6 +94,13 @@ void write_pools(CampaignPlan const& plan, CampaignDirectory const& into, std::v
     else std::filesystem::remove(into.file("pools.csv"), ignored);
 }
 
+/// Likewise.
+void write_matrix(CampaignPlan const& plan, CampaignDirectory const& into, Results const& results) {
+    std::error_code ignored;   // it may not be there
+    if (!plan.transfer.empty()) write_text(into, "matrix.csv", matrix_csv(transfer_matrix(plan, results)));
+    else std::filesystem::remove(into.file("matrix.csv"), ignored);
+}
+
 }   // namespace
 
 std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
@@ -99,14 +111,15 @@ std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
                        plan.figures.trajectory);
 }
 
-std::string write_report(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
+std::string write_report(CampaignPlan const& given, CampaignDirectory const& from, CampaignDirectory const& into) {
     bool const has_runs = std::filesystem::exists(from.file("runs"));
     if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
         throw UsageError(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
                          "Start with 'lore-campaign run', or check --dir.");
     make_directory(into.file("figures"));
-    if (has_runs) write_results(into, collect_results(plan, from));
+    if (has_runs) write_results(into, collect_results(given, from));
     Results const results = read_results(has_runs ? into : from);
+    CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
     check_names(plan, results);
     check_pools(plan, results);
     auto const comparisons = compare_treatments(plan, results);
@@ -114,6 +127,7 @@ std::string write_report(CampaignPlan const& plan, CampaignDirectory const& from
     write_text(into, "pvalues.csv", comparisons_csv(comparisons));
     auto const planned = compare_pools(plan, results);
     write_pools(plan, into, planned);
+    write_matrix(plan, into, results);
     write_text(into, "summary.json", summary_json(plan, results, comparisons, planned));
     write_figures(into, figures);
     write_text(into, "report.html", report_page(plan, results, comparisons, planned, figures));

@@ -121,8 +121,9 @@ struct TreatmentCurves {
     std::vector<std::vector<double>> curves;
 };
 
-/// How fast the target treatments are, over the generations that all their runs have.
-void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results) {
+/// How fast the treatments of one task are, over the generations that all their runs have.
+void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results,
+                std::vector<Milestone>& milestones) {
     if (targets.empty()) return;
     std::size_t length = targets.front().curves.front().size();
     for (TreatmentCurves const& target : targets)
@@ -131,8 +132,10 @@ void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& ta
     std::vector<double> finals;
     for (TreatmentCurves const& target : targets)
         for (std::vector<double> const& curve : target.curves) finals.push_back(curve.back());
-    std::vector<double> const levels = timed_levels(plan, results.reward_unit(plan), finals);
-    std::vector<Milestone> milestones;
+    std::string const unit = results.unit_of(targets.front().treatment).value_or(std::string{first_reward_unit});
+    std::vector<double> levels = timed_levels(plan, unit, finals);
+    // A row of speed.csv has as many levels as the others: equal ones of a task whose runs have all got the same.
+    if (levels.empty() && !plan.tasks.empty()) levels.assign(first_reward_levels.size(), finals.front());
     for (TreatmentCurves const& target : targets) {
         results.speeds.push_back(speed_of(target.treatment, target.curves, last, levels));
         for (int const generation : milestones_to(last)) {
@@ -140,6 +143,18 @@ void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& ta
             for (std::vector<double> const& curve : target.curves) sum += curve[static_cast<std::size_t>(generation)];
             milestones.push_back({target.treatment, generation, sum / static_cast<double>(target.curves.size())});
         }
+    }
+}
+
+/// Treatments of different tasks are not compared.
+void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results) {
+    std::vector<Milestone> milestones;
+    for (TaskGroup const& group : task_groups(plan)) {
+        std::vector<TreatmentCurves> of_task;
+        for (TreatmentCurves const& target : targets)
+            if (std::find(group.treatments.begin(), group.treatments.end(), target.treatment) != group.treatments.end())
+                of_task.push_back(target);
+        add_speeds(plan, of_task, results, milestones);
     }
     results.leads = leads_of(plan, milestones);
 }
@@ -183,6 +198,13 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
 
 }   // namespace
 
+std::vector<std::string> all_treatments(CampaignPlan const& plan) {
+    std::vector<std::string> names;
+    for (Treatment const& source : plan.sources) names.push_back(source.name);
+    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
+    return names;
+}
+
 KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
     return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
 }
@@ -203,7 +225,15 @@ std::optional<std::string> Results::unit_of(std::string_view treatment) const {
 std::string Results::reward_unit(CampaignPlan const& plan) const {
     for (std::string const& name : plan.report_order)
         if (auto unit = unit_of(name)) return *std::move(unit);
-    return unit_of(plan.source.name).value_or(std::string{first_reward_unit});
+    for (Treatment const& source : plan.sources)
+        if (auto unit = unit_of(source.name)) return *std::move(unit);
+    return std::string{first_reward_unit};
+}
+
+bool Results::has_several_units(CampaignPlan const& plan) const {
+    std::string const first = reward_unit(plan);
+    return std::any_of(plan.report_order.begin(), plan.report_order.end(),
+                       [&](std::string const& name) { return unit_of(name).value_or(first) != first; });
 }
 
 std::string_view Results::reward_word() const {
@@ -219,10 +249,8 @@ bool Results::are_counts() const {
 
 Results collect_results(CampaignPlan const& plan, CampaignDirectory const& directory) {
     Results results;
-    std::vector<std::string> order{plan.source.name};
-    order.insert(order.end(), plan.report_order.begin(), plan.report_order.end());
     std::vector<TreatmentCurves> targets;
-    for (std::string const& name : order) {
+    for (std::string const& name : all_treatments(plan)) {
         Treatment const& treatment = plan.treatment(name);
         auto const runs = finished_runs(plan, directory, treatment);
         if (runs.empty()) continue;
@@ -231,12 +259,12 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         results.curves.insert(results.curves.end(), curve.begin(), curve.end());
         auto const populations = populations_of(treatment, runs);
         results.populations.insert(results.populations.end(), populations.begin(), populations.end());
-        if (name == plan.source.name) continue;
+        if (plan.is_source(name)) continue;
         targets.push_back({name, {}});
         for (FinishedRun const& run : runs) targets.back().curves.push_back(best_rewards(run.progress));
     }
     add_speeds(plan, targets, results);
-    results.bases = knowledge_rows(plan, directory, recorded_choice(directory));
+    results.bases = knowledge_rows(plan, directory, recorded_choices(plan, directory));
     return results;
 }
 

@@ -62,6 +62,14 @@ struct KnowledgeRow {
     int shown_once = 0;    ///< features that one individual alone has shown
 };
 
+/// What the matrix of transfer says where the source's channels are not the target's.
+inline constexpr char misfit_word[] = "other channels";
+
+/// A field of the matrix of transfer.
+struct FieldName {
+    std::string source, target;   ///< names of tasks
+};
+
 /// All that the report shows. It is made from these rows alone, so that it can be made again from the CSV files long
 /// after the runs are gone.
 struct Results {
@@ -73,12 +81,15 @@ struct Results {
     std::vector<LeadRow> leads;
     std::vector<Replay> replays;
     std::vector<PanelValues> panels;
+    std::vector<FieldName> misfits;   ///< as matrix.csv of a former report has them
 
     std::vector<double> final_rewards(std::string_view treatment) const;
     /// The unit of that treatment's runs; nothing if it has none.
     std::optional<std::string> unit_of(std::string_view treatment) const;
-    /// The unit of the target task's rewards; of the source task's as long as there is no target run.
+    /// The unit of the first target task's rewards; of the source task's as long as there is no target run.
     std::string reward_unit(CampaignPlan const&) const;
+    /// Whether the target treatments have rewards of different units.
+    bool has_several_units(CampaignPlan const&) const;
     /// "balls" if all runs have that unit, else "reward": in the names of columns.
     std::string_view reward_word() const;
     /// Whether all rewards are whole and none is negative: then something is counted.
@@ -88,6 +99,9 @@ struct Results {
 /// Gathers the finished runs and knowledge bases of a campaign from its directory; replays and panels stay empty.
 /// Throws Error for a damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
+
+/// The source tasks' names, then those of the target treatments in the report's order.
+std::vector<std::string> all_treatments(CampaignPlan const&);
 
 /// The knowledge base from a lineage that this one goes back to.
 KnowledgePlan const& origin_of(CampaignPlan const&, KnowledgePlan const&);

@@ -161,6 +161,18 @@ std::vector<SpeedRow> read_speeds(Table const& table, std::string_view word) {
     return rows;
 }
 
+/// The fields that a former report has as misfits: what it cannot know where a world is not at hand.
+std::vector<FieldName> misfits_in(Table const& matrix) {
+    struct Row {
+        std::string source, target, why;
+    };
+    std::vector<FieldName> misfits;
+    for (Row const& row : matrix.rows<Row>(
+             {csv_column("source", &Row::source), csv_column("target", &Row::target), csv_column("why", &Row::why)}))
+        if (row.why == misfit_word) misfits.push_back({row.source, row.target});
+    return misfits;
+}
+
 /// Whether the columns of the times have the first worlds' names.
 bool has_first_levels(std::vector<SpeedRow> const& speeds, std::string_view word) {
     return is_first(word) &&
@@ -200,6 +212,7 @@ Results read_results(CampaignDirectory const& directory) {
     results.bases = table("kbs.csv").rows(knowledge_columns(word));
     results.speeds = read_speeds(table("speed.csv"), word);
     results.leads = table("leads.csv").rows(lead_columns(word));
+    if (Table const matrix = table("matrix.csv"); matrix.has("why")) results.misfits = misfits_in(matrix);
     Replays shown = read_replays(directory);
     results.replays = std::move(shown.replays);
     results.panels = std::move(shown.panels);

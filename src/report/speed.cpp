@@ -99,11 +99,13 @@ std::vector<LeadRow> leads_of(CampaignPlan const& plan, std::vector<Milestone> c
         if (base_of(treatment).empty()) continue;
         std::string const& origin = origin_of(plan, plan.knowledge_base(base_of(treatment))).name;
         Treatment const* const policy = find_target(plan, [&](Treatment const& t) {
-            return t.policy_of == origin && t.knowledge.empty() && t.name != name && t.config == treatment.config;
+            return t.policy_of == origin && t.knowledge.empty() && t.name != name && t.config == treatment.config &&
+                   t.target == treatment.target;
         });
         if (policy == nullptr) continue;
         Treatment const* const none = find_target(plan, [&](Treatment const& t) {
-            return base_of(t).empty() && t.policy_of.empty() && t.config == policy->config;
+            return base_of(t).empty() && t.policy_of.empty() && t.config == policy->config &&
+                   t.target == policy->target;
         });
         if (none == nullptr) continue;
         for (Milestone const& milestone : milestones) {

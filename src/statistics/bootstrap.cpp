@@ -9,6 +9,30 @@
 
 namespace lore {
 
+namespace {
+
+using Sample = std::span<double const>;
+
+/// Of what two samples say together, each drawn anew from itself.
+Interval interval_of(double (*statistic)(Sample, Sample), Sample first, Sample second, BootstrapConfig const& config) {
+    if (first.empty() || second.empty())
+        throw Error("cannot draw samples anew", "one of them is empty", "Give at least one value of each.");
+    std::vector<double> drawn[2], found;
+    auto const draw = [&](Sample from, std::uint32_t resample, std::uint32_t which) {
+        Stream rng{config.seed, Purpose::bootstrap, resample, 1 + which};
+        drawn[which].resize(from.size());
+        for (double& value : drawn[which]) value = from[rng.below(static_cast<std::uint32_t>(from.size()))];
+    };
+    for (int r = 0; r < std::max(1, config.resamples); ++r) {
+        draw(first, static_cast<std::uint32_t>(r), 0);
+        draw(second, static_cast<std::uint32_t>(r), 1);
+        found.push_back(statistic(drawn[0], drawn[1]));
+    }
+    return {quantile(found, (1 - config.level) / 2), quantile(found, (1 + config.level) / 2)};
+}
+
+}   // namespace
+
 MeanBand bootstrap_mean_band(std::span<std::vector<double> const> curves, BootstrapConfig const& config) {
     if (curves.empty()) throw Error("cannot band a mean curve", "there is no curve", "Give at least one run.");
     std::size_t const columns = curves.front().size();
@@ -41,19 +65,13 @@ MeanBand bootstrap_mean_band(std::span<std::vector<double> const> curves, Bootst
     return band;
 }
 
+Interval bootstrap_mean_difference(std::span<double const> first, std::span<double const> second,
+                                   BootstrapConfig const& config) {
+    return interval_of([](Sample a, Sample b) { return mean(a) - mean(b); }, first, second, config);
+}
+
 Interval bootstrap_a12(std::span<double const> first, std::span<double const> second, BootstrapConfig const& config) {
-    std::vector<double> drawn[2], effects;
-    auto const draw = [&](std::span<double const> from, std::uint32_t resample, std::uint32_t which) {
-        Stream rng{config.seed, Purpose::bootstrap, resample, 1 + which};
-        drawn[which].resize(from.size());
-        for (double& value : drawn[which]) value = from[rng.below(static_cast<std::uint32_t>(from.size()))];
-    };
-    for (int r = 0; r < std::max(1, config.resamples); ++r) {
-        draw(first, static_cast<std::uint32_t>(r), 0);
-        draw(second, static_cast<std::uint32_t>(r), 1);
-        effects.push_back(vargha_delaney_a12(drawn[0], drawn[1]));
-    }
-    return {quantile(effects, (1 - config.level) / 2), quantile(effects, (1 + config.level) / 2)};
+    return interval_of(vargha_delaney_a12, first, second, config);
 }
 
 }   // namespace lore

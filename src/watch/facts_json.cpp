@@ -50,6 +50,8 @@ Json treatment_json(TreatmentFacts const& facts) {
               {"best_" + word, json_number<Json>(facts.best_reward)},
               {"curve", curve}};
     if (!is_first(facts.reward_unit)) json["reward_unit"] = facts.reward_unit;
+    if (facts.is_source) json["source"] = true;
+    if (!facts.target.empty()) json["target"] = facts.target;
     return json;
 }
 

@@ -135,7 +135,18 @@ function drawChart(treatments) {
         points: points.map(point => `${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)}`).join(" ") }));
   }
   if (withLabels) labelCurves(chart, treatments, x, y, top);
-  byId("chart").replaceChildren(chart);
+  return chart;
+}
+
+// A chart a target task, under its name where there are several; sources share one if they share the unit.
+function drawCharts(treatments) {
+  const title = treatment => treatment.target ?? `source tasks [${unitOf(treatment)}]`;
+  const named = treatments.some(treatment => treatment.target !== undefined);
+  const group = treatment => named ? title(treatment) : unitOf(treatment);
+  byId("chart").replaceChildren(...[...new Set(treatments.map(group))].flatMap(name => {
+    const chart = drawChart(treatments.filter(treatment => group(treatment) === name));
+    return named ? [element("h3", {}, name), chart] : [chart];
+  }));
 }
 
 // Each curve's name at its end, moved apart where ends are near.
@@ -152,14 +163,15 @@ function labelCurves(chart, treatments, x, y, top) {
 let drawn = [], sourceWasChosen = false;
 function showCurves(facts) {
   const curves = facts.treatments.map((treatment, index) => ({ ...treatment, index })).filter(treatment => treatment.curve.length > 0);
-  const targets = curves.filter(treatment => treatment.index > 0);
+  const targets = curves.filter(treatment => !treatment.source);
   if (!sourceWasChosen) byId("with-source").checked = targets.length === 0;
   // Rewards of different units share no axis.
-  const sameUnit = curve => targets.length === 0 || unitOf(curve) === unitOf(targets.at(-1));
-  drawn = byId("with-source").checked ? curves.filter(sameUnit) : targets;
+  const beside = curve => targets.length === 0 || targets.at(-1).target !== undefined || unitOf(curve) === unitOf(targets.at(-1));
+  const sources = curves.filter(treatment => treatment.source && beside(treatment));
+  drawn = byId("with-source").checked ? [...sources, ...targets] : targets;
   byId("curves").hidden = curves.length === 0;
   byId("chart").hidden = drawn.length === 0;
-  if (drawn.length > 0) drawChart(drawn);
+  if (drawn.length > 0) drawCharts(drawn);
 }
 
 let replayed = "";
@@ -263,5 +275,5 @@ async function look() {
 
 document.addEventListener("visibilitychange", () => { if (!document.hidden) look(); });
 byId("with-source").addEventListener("change", () => { sourceWasChosen = true; look(); });
-new ResizeObserver(() => { if (drawn.length > 0) drawChart(drawn); }).observe(document.querySelector("main"));
+new ResizeObserver(() => { if (drawn.length > 0) drawCharts(drawn); }).observe(document.querySelector("main"));
 look();

@@ -23,9 +23,10 @@ constexpr std::size_t most_failures = 50;   ///< shown with their logs
 
 bool is_run(Step const& step) { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
 
-/// The source task first.
+/// The source tasks first.
 std::vector<std::string> names_in_order(CampaignPlan const& plan) {
-    std::vector<std::string> names{plan.source.name};
+    std::vector<std::string> names;
+    for (Treatment const& source : plan.sources) names.push_back(source.name);
     names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
     return names;
 }
@@ -35,6 +36,7 @@ TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory con
     TreatmentFacts facts;
     facts.name = treatment.name;
     facts.label = treatment.label;
+    facts.target = treatment.target;
     facts.planned = treatment.runs;
     std::vector<std::vector<double>> runs;
     for (auto const& [step, state] : steps) {
@@ -149,12 +151,17 @@ struct CampaignWatcher::Memory {
         if (!fs::is_directory(directory.path()))
             now.notice = fmt::format("Waiting for {}: 'lore-campaign run' makes it.", directory.path());
         now.steps = states_of(plan, directory);
-        for (std::string const& name : names_in_order(plan))
+        for (std::string const& name : names_in_order(plan)) {
             now.treatments.push_back(treatment_facts(plan.treatment(name), directory, now.steps, progress));
+            now.treatments.back().is_source = plan.is_source(name);
+        }
         now.failures = failures_among(now.steps, directory);
         add_progress(now);
         std::vector<Seen> champions;
-        for (auto const& names : {std::vector{plan.source.name}, plan.report_order})
+        std::vector<std::vector<std::string>> tasks;
+        for (Treatment const& source : plan.sources) tasks.push_back({source.name});
+        for (TaskGroup const& group : task_groups(plan)) tasks.push_back(group.treatments);
+        for (auto const& names : tasks)
             if (auto champion = champion_of(plan, names, now)) champions.push_back(replayed(*std::move(champion)));
         seen = std::move(champions);
         for (Seen const& one : seen) now.champions.push_back(one.champion);

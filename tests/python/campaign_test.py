@@ -1,4 +1,5 @@
 """Campaigns and their reports as lore-campaign makes them, and figures drawn from their tables."""
+import json
 import os
 import pathlib
 import shutil
@@ -119,6 +120,75 @@ class ReadCampaign(LoreTest):
     def test_its_figures_can_be_drawn(self) -> None:
         written = plot.save_figures(self.directory, self.scratch / "figures", ["svg"])
         self.assertEqual([os.path.basename(path) for path in written], [f"figure{i}.svg" for i in range(3, 7)])
+
+
+class SeveralTasks(LoreTest):
+    """A report of two source and two target tasks, one of them in a world of its own, as its tables have it."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.report = self.scratch / "report"
+        self.report.mkdir(exist_ok=True)
+        targets = {"arena_from_none": "arena", "pole_from_none": "pole", "pole_from_pole": "pole"}
+        treatments = [{"treatment": name, "label": name} for name in ("arena", "pole")]
+        treatments += [{"treatment": name, "label": name, "target": task} for name, task in targets.items()]
+        files = {
+            "final.csv": "treatment,run,seed,reward,unit\narena,1,1,3,balls\npole,1,1,-4.5,cos\n"
+            "arena_from_none,1,7,2,balls\npole_from_none,1,7,-9.5,cos\npole_from_pole,1,7,-3.25,cos\n",
+            "curves.csv": "treatment,generation,runs,mean,low,high\npole,9,1,-4.5,-4.5,-4.5\narena_from_none,4,1,2,2,2\n"
+            "pole_from_none,4,1,-9.5,-9.5,-9.5\npole_from_pole,4,1,-3.25,-3.25,-3.25\n",
+            "matrix.csv": "source,target,treatment,none,unit,generation,n,n_none,mean,mean_none,difference,difference_low,"
+            "difference_high,a12,a12_low,a12_high,p,p_holm,why\n"
+            "arena,pole,,pole_from_none,,,,,,,,,,,,,,,other channels\n"
+            "pole,pole,pole_from_pole,pole_from_none,cos,4,1,1,-3.25,-9.5,6.25,6.25,6.25,1,1,1,1,1,\n",
+            "replay.csv": "replay,step,x,y,reward\npole/001,0,0.25,0.5,0\npole/001,1,0.5,0.5,-1\npole/001,2,0.75,1,-2\n",
+            "values.csv": "figure,knowledge,window,value\nfigure5,pole,0,-0.5\nfigure5,pole,1,\n",
+            "scene.json": json.dumps({
+                "replays": [{"run": "pole/001", "signature": "0", "reward_unit": "cos",
+                             "world": {"width": 2, "height": 1, "svg": "<rect width='1' height='1' fill='#ff0000'/>"}}],
+                "panels": [{"figure": "figure5", "knowledge": "pole", "checksum": "0"}],
+            }),
+            "summary.json": json.dumps({"sources": ["arena", "pole"], "treatments": treatments}),
+        }  # fmt: skip
+        for name, text in files.items():
+            (self.report / name).write_text(text)
+
+    def test_know_their_sources_tasks_and_matrix(self) -> None:
+        report = lore.Report(self.report)
+        self.assertEqual(report.sources, ["arena", "pole"])
+        self.assertEqual(report.tasks, {"arena": ["arena_from_none"], "pole": ["pole_from_none", "pole_from_pole"]})
+        self.assertEqual(report.reward_unit, "balls", "of the first target task")
+        matrix = report.matrix
+        self.assertEqual(matrix["why"].tolist(), ["other channels", ""])
+        np.testing.assert_array_equal(matrix["difference"], [np.nan, 6.25])
+        np.testing.assert_array_equal(report.values["value"], [-0.5, np.nan])
+        scene = report.scenes["pole/001"]
+        assert isinstance(scene, lore.WorldScene)
+        self.assertEqual((scene.size.tolist(), scene.reward_unit), ([2, 1], "cos"))
+        whole = (self.report / "matrix.csv").read_text()
+        (self.report / "matrix.csv").write_text(whole.replace("6.25,1", "six,1"))
+        self.expect_damaged(lambda: report.matrix, self.report / "matrix.csv", "difference_high")
+        (self.report / "scene.json").write_text((self.report / "scene.json").read_text().replace(": 2,", ": -2,"))
+        self.expect_damaged(lambda: report.scenes, self.report / "scene.json", "a world without extent")
+
+    @unittest.skipIf(plot is None, "matplotlib is not here")
+    def test_have_figures_by_task_and_the_path_over_the_scene_of_a_world(self) -> None:
+        if shutil.which("rsvg-convert") is None:
+            with self.assertRaisesRegex(OSError, "no program rsvg-convert"):
+                plot.figure5(self.report)
+            return
+        written = plot.save_figures(self.report, self.scratch / "figures", ["svg"])
+        self.assertEqual([os.path.basename(path) for path in written],
+                         ["figure3_arena.svg", "figure3_pole.svg", "figure4_arena.svg", "figure4_pole.svg",
+                          "figure5.svg"])  # fmt: skip
+        axes = plot.figure3(lore.Report(self.report), "pole").axes[0]
+        self.assertEqual([line.get_label() for line in axes.lines], ["pole_from_none (n = 1)", "pole_from_pole (n = 1)"])
+        self.assertEqual(axes.get_ylabel(), "reward [cos] (mean of best-of-runs)")
+        panel = plot.figure5(self.report).subfigs[0]
+        pixels = panel.axes[0].images[0].get_array()
+        self.assertEqual(pixels[10, 10].tolist()[:3], pixels[-10, 10].tolist()[:3])
+        self.assertNotEqual(pixels[10, 10].tolist(), pixels[10, -10].tolist(), "the left half is red")
+        self.assertEqual(panel.axes[1].get_ylabel(), "value (cos)")
 
 
 @unittest.skipIf(plot is None, "matplotlib is not here")

@@ -1,3 +1,4 @@
+#include "support/c_worlds.h"
 #include "support/program.h"
 
 #include <lore/archive/knowledge_file.h>
@@ -92,6 +93,51 @@ TEST_F(LoreCampaignTest, makes_bases_by_other_rules_of_value_and_founders_from_t
     test::Ran const without = run("run c.toml --dir c --jobs 1 -q --only knowledge/return");
     EXPECT_EQ(without.exit_code, 1);
     EXPECT_THAT(without.errors + without.output, HasSubstr("needs evidence that the base does not have"));
+}
+
+TEST_F(LoreCampaignTest, makes_the_matrix_of_transfer_between_tasks_of_two_worlds) {
+    std::string const small = "[evolution]\npopulation = 8\nfounders = 16\ngenerations = 4\n[episode]\nsteps = 200\n";
+    std::string const pendulum =
+        "[world]\nlibrary = \"" + test::c_world("pendulum") + "\"\n[world.settings]\nlength = ";
+    write("source.toml", "task = \"source\"\n" + small);
+    write("target.toml", "task = \"target\"\n" + small);
+    write("short.toml", pendulum + "1.0\n" + small);
+    write("long.toml", pendulum + "1.5\n" + small);
+    auto const task = [](std::string const& kind, std::string const& name, std::string const& config) {
+        return "[[" + kind + "]]\nname = \"" + name + "\"\nconfig = \"" + config + ".toml\"\n";
+    };
+    write("c.toml", "title = \"Two worlds\"\nruns = 2\n" + task("source", "balls", "source") +
+                        task("source", "pole", "short") + task("target", "balls", "target") +
+                        task("target", "pole", "long") + "first_seed = 11\n[transfer]\nmethod = \"clone\"\ntop = 50\n" +
+                        "[report]\ntrajectory = \"pole\"\nfigure5 = [\"pole_best\"]\n");
+    std::string const planned = run("plan c.toml --dir c").output;
+    EXPECT_THAT(planned, HasSubstr("# not run: pole with knowledge of balls (made for 12 sensors and 3 effectors"));
+    EXPECT_THAT(planned, HasSubstr("choose/pole"));
+    expect_done("run c.toml --dir c --jobs 1 -q");
+    // 4 source runs, 2 choices, 4 bases, 8 target runs, the replay.
+    EXPECT_THAT(run("status -q c.toml --dir c").output, HasSubstr("19 done"));
+    expect_done("report c.toml --dir c -q");
+    std::string const matrix = content("c/matrix.csv");
+    EXPECT_THAT(matrix, HasSubstr("\nballs,balls,balls_from_balls,balls_from_none,balls,4,2,2,"));
+    EXPECT_THAT(matrix, HasSubstr("\npole,pole,pole_from_pole,pole_from_none,"));
+    EXPECT_THAT(matrix, HasSubstr("\npole,balls,,balls_from_none,,,,,,,,,,,,,,,other channels\n"));
+    std::string const replays = content("c/replay.csv");
+    for (char const* shown : {"\npole/00", "\nballs_from_", "\npole_from_"}) EXPECT_THAT(replays, HasSubstr(shown));
+    expect_done("export c.toml --dir c --out ioh -q");
+    EXPECT_THAT(run("watch c.toml --dir c --text < /dev/null").output, HasSubstr("19 of 19 steps done"));
+    expect_done("pack c.toml --dir c --out c.tar.zst -q");
+    expect_done("verify c.tar.zst -q");
+}
+
+TEST_F(LoreCampaignTest, refuses_transfer_between_tasks_that_it_does_not_know) {
+    std::string const jobs = LORE_SOURCE_DIR "/jobs/tasks/";
+    std::string const source = "title = \"t\"\n[source]\nconfig = \"" + jobs + "source.toml\"\n";
+    write("c.toml", source + "[transfer]\nmethod = \"clone\"\n");
+    expect_refusal("plan c.toml --dir c", 2, "there is no target task");
+    write("c.toml", source + "[[target]]\nname = \"t\"\nconfig = \"" + jobs +
+                        "target.toml\"\n[[treatment]]\n"
+                        "name = \"a\"\ntarget = \"u\"\n");
+    expect_refusal("plan c.toml --dir c", 2, "there is no 'u'");
 }
 
 TEST_F(LoreCampaignTest, refuses_time_limits_that_are_none) {

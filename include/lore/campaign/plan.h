@@ -22,6 +22,7 @@ struct Treatment {
                              ///< come, the usual baseline of transfer; empty: none
     int runs = 30;
     std::uint64_t first_seed = 1;
+    std::string target;   ///< name of its target task, where the campaign's file names tasks; else empty
 };
 
 enum class KnowledgeKind : std::uint8_t {
@@ -39,8 +40,10 @@ struct KnowledgePlan {
     std::string name;
     std::string label;
     KnowledgeKind kind = KnowledgeKind::lineage;
+    std::string source = "source";      ///< name of the source task whose runs it comes from
     double wished_reward = 0;           ///< lineage: the level wished of the source run's best-of-run [reward unit]
-    int run = 0;                        ///< lineage: this source run, whatever its reward; 0: choose by `wished_reward`
+    int run = 0;                        ///< lineage: this source run, whatever its reward; 0: choose by reward
+    bool best_run = false;              ///< lineage: choose the most reward, not the nearest to `wished_reward`
     std::string base;                   ///< all but lineage: the knowledge base it starts from
     std::uint64_t seed = 1;             ///< random, permuted: of the draw
     std::optional<int> window_length;   ///< of its windows [steps]; without: the source runs'
@@ -68,6 +71,16 @@ struct PoolPlan {
     std::vector<std::string> against;   ///< treatments, or pools before it, that it was planned to be compared with
 };
 
+/// One field of the matrix of transfer: runs on a target task with knowledge of a source task, beside runs without.
+struct TransferPair {
+    std::string source;      ///< name of a source task
+    std::string target;      ///< name of a target task
+    std::string treatment;   ///< with knowledge of the source; empty where it does not fit
+    std::string none;        ///< the treatment of the same task without knowledge
+    std::string misfit;      ///< why the source's knowledge does not fit the target; empty: it does, or that is not
+                             ///< known, because a world could not be opened
+};
+
 /// How the campaign asks a batch system for its share.
 struct ClusterPlan {
     std::string time_limit = "04:00:00";   ///< of a task; one that needs longer is queued again at a checkpoint
@@ -76,14 +89,16 @@ struct ClusterPlan {
     std::vector<std::string> options;      ///< further #SBATCH options
 };
 
-/// A campaign: runs on a source task, knowledge bases from some of them, runs on the target task with and without.
-/// Data, so that another campaign needs only another file.
+/// A campaign: runs on source tasks, knowledge bases from some of them, runs on target tasks with and without. Data, so
+/// that another campaign needs only another file.
 struct CampaignPlan {
     std::string path;        ///< of its file
     std::string directory;   ///< in which the file lies; relative paths start there
     std::string title;
-    Treatment source;
+    std::vector<Treatment> sources;         ///< the runs on each source task; one called "source" where there is one
     std::vector<KnowledgePlan> knowledge;   ///< each after those it is made from
+    std::vector<Treatment> tasks;           ///< target tasks by name, and what treatments of each have in common
+    std::vector<TransferPair> transfer;     ///< all source tasks by all target tasks, row by row; empty: no matrix
     std::vector<Treatment> targets;         ///< in the order in which they are run
     std::vector<PoolPlan> pools;
     std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
@@ -91,7 +106,9 @@ struct CampaignPlan {
     FigurePlan figures;
     ClusterPlan cluster;
 
+    bool is_source(std::string_view treatment) const;
     Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
+    Treatment const& task(std::string_view name) const;                 ///< precondition: there is one
     KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
     PoolPlan const* pool(std::string_view name) const;                  ///< null if there is none
     std::string const& label(std::string_view name) const;              ///< of a treatment or a pool
@@ -101,11 +118,22 @@ struct CampaignPlan {
 /// The base by Algorithm 1 that a base is, or was derived from: its features and its evidence.
 KnowledgePlan const& built_base(CampaignPlan const&, KnowledgePlan const&);
 
+/// Target treatments whose rewards can be compared, in the report's order.
+struct TaskGroup {
+    std::string task;   ///< name of their target task; empty where the file names none
+    std::vector<std::string> treatments;
+};
+/// One group a target task that has treatments, after the group of those without a named task.
+std::vector<TaskGroup> task_groups(CampaignPlan const&);
+
 /// Reads jobs/campaigns/paper.toml and its like. Every treatment's configuration is read too, with its overrides.
 /// A treatment reads windows of the length and with the threshold of its knowledge base, without having to say so. A
 /// base gathers the evidence that the bases revalued from it need. Throws UsageError: syntax, unknown key, a name used
 /// twice or not defined, a value out of range, a treatment that sets other windows than its base has, a value rule
 /// whose evidence no build of such a base gathers.
+///
+/// A table [transfer] adds, for each target task, a treatment without knowledge, and for each source task whose world
+/// has the same channels one with it, and the knowledge bases for these. Only for that, worlds are opened.
 CampaignPlan read_campaign(std::string const& path);
 
 }   // namespace lore

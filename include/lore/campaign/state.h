@@ -35,8 +35,10 @@ struct StepWithState {
 /// All steps of the campaign in their order; the reason of a missing one is what it waits for.
 std::vector<StepWithState> states_of(CampaignPlan const&, CampaignDirectory const&);
 
-/// The recorded choice of source runs, or nothing.
-std::optional<Choice> recorded_choice(CampaignDirectory const&);
+/// The recorded choice from the runs of a source task, or nothing.
+std::optional<Choice> recorded_choice(CampaignDirectory const&, std::string const& source);
+/// Those of all source tasks together; nothing if there is none.
+std::optional<Choice> recorded_choices(CampaignPlan const&, CampaignDirectory const&);
 
 /// How the last attempt at a step failed; kept until the next succeeds.
 struct FailureRecord {

@@ -17,12 +17,12 @@ enum class StepKind : std::uint8_t {
 };
 
 /// One piece of work whose outcome is on disk. Names are unique: "source/007", "choose", "archive/kb1_all",
-/// "knowledge/kb1", "kb1/012", "replay".
+/// "knowledge/kb1", "kb1/012", "replay"; of several sources "NAME/007" and "choose/NAME".
 struct Step {
     std::string name;
     StepKind kind = StepKind::evolve;
     std::string group;                  ///< "source", "choose", "archive/kb1_all", "knowledge/kb1", "kb1"
-    std::string subject;                ///< of the treatment or the knowledge base
+    std::string subject;                ///< name of the treatment, the knowledge base, or the source to choose from
     int run = 0;                        ///< evolve: 1, 2, ...
     std::vector<std::string> after;     ///< groups that must be finished
     bool takes_what_is_there = false;   ///< it can do without those of them that failed
@@ -41,15 +41,18 @@ public:
     std::string file(std::string_view name) const;
     std::string run(std::string_view step) const;         ///< runs/source/007
     std::string knowledge(std::string_view name) const;   ///< knowledge/kb1.lorekb
-    std::string choice() const;                           ///< knowledge/choice.json
-    std::string log(std::string_view step) const;         ///< logs/source-007.log
-    std::string lock(std::string_view step) const;        ///< steps/source-007.lock
-    std::string record(std::string_view step) const;      ///< steps/source-007.json: how the last attempt failed
+    /// knowledge/choice.json, or knowledge/choice-NAME.json of a source with a name of its own
+    std::string choice(std::string_view source = "source") const;
+    std::string log(std::string_view step) const;      ///< logs/source-007.log
+    std::string lock(std::string_view step) const;     ///< steps/source-007.lock
+    std::string record(std::string_view step) const;   ///< steps/source-007.json: how the last attempt failed
 
 private:
     std::string path_;
 };
 
+/// "choose", or "choose/NAME" of a source with a name of its own.
+std::string choose_step(std::string_view source);
 /// "source/007".
 std::string run_step(std::string_view treatment, int run);
 std::uint64_t seed_of(Treatment const&, int run);
@@ -67,8 +70,8 @@ struct Launcher {
     std::string launch = usual_launch();              ///< put in front of a run of several ranks
 };
 
-/// The step's command line. `choice` is needed by steps that depend on "choose"; without one they name their source
-/// run "?". Not for StepKind::choose.
+/// The step's command line. `choice` is needed by steps that depend on "choose"; what it does not have is named "?".
+/// Not for StepKind::choose.
 std::vector<std::string> command_of(CampaignPlan const&, CampaignDirectory const&, Launcher const&, Step const&,
                                     Choice const* choice);
 /// As a shell takes it.

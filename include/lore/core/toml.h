@@ -22,6 +22,7 @@ public:
     static TomlTable read_file(std::string const& path);
 
     bool has(std::string_view key) const;
+    bool is_array(std::string_view key) const;   ///< also one of tables
     /// Keys in the order of the document.
     std::vector<std::string> keys() const;
 

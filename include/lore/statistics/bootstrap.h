@@ -28,6 +28,11 @@ struct Interval {
     double low = 0, high = 0;
 };
 
+/// Percentile bootstrap interval of mean(first) - mean(second): both samples are drawn anew, each from itself. Throws
+/// Error for an empty sample.
+Interval bootstrap_mean_difference(std::span<double const> first, std::span<double const> second,
+                                   BootstrapConfig const& = {});
+
 /// Percentile bootstrap interval of vargha_delaney_a12: both samples are drawn anew, each from itself. Of no width
 /// where no value of one sample lies among those of the other. Throws Error for an empty sample or one that holds a
 /// NaN.

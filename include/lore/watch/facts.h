@@ -23,8 +23,10 @@ std::vector<MeanPoint> mean_curve(std::vector<std::vector<double>> const& runs);
 /// How far the runs of a treatment have come.
 struct TreatmentFacts {
     std::string name, label;
-    int planned = 0;   ///< runs
-    int started = 0;   ///< of them, those with a generation
+    bool is_source = false;
+    std::string target;   ///< name of its target task; "" where the campaign names none
+    int planned = 0;      ///< runs
+    int started = 0;      ///< of them, those with a generation
     int done = 0, running = 0, failed = 0;
     double mean_reward = 0;    ///< of the best so far of those started
     double best_reward = 0;    ///< of all of them

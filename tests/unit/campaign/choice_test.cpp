@@ -50,6 +50,21 @@ TEST(Choice, gives_runs_named_by_the_campaign_first) {
     EXPECT_EQ(choose_runs(plan, runs_with({4, 7, 6}), {}).of("kb1").run, 3);
 }
 
+TEST(Choice, takes_the_run_with_most_reward_of_its_own_source) {
+    CampaignPlan plan = wishes({0, 0, 5});
+    plan.knowledge[0].best_run = plan.knowledge[1].best_run = true;
+    plan.knowledge[2].source = "elsewhere";
+    Choice const choice = choose_runs(plan, runs_with({-4, 7, -1, 7}), {});
+    EXPECT_EQ(chosen(choice), (std::vector<int>{2, 4})) << "ties: the lowest seed; the second base takes the next";
+    EXPECT_TRUE(choice.covers(plan));
+    Choice of_both = choice;
+    of_both.source.clear();
+    EXPECT_FALSE(of_both.covers(plan));
+    Scratch const scratch;
+    write_choice(scratch.file("choice.json"), choice);
+    EXPECT_TRUE(read_choice(scratch.file("choice.json")).of("kb1").best);
+}
+
 TEST(Choice, keeps_what_was_chosen_before) {
     Choice const before = choose_runs(wishes({7}), runs_with({4, 6}), {});
     Choice const after = choose_runs(wishes({7, 7}), runs_with({4, 6, 7}), {}, before);

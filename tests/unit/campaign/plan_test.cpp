@@ -31,23 +31,23 @@ protected:
 
 TEST_F(Campaign, gives_treatments_the_common_values_and_their_own) {
     CampaignPlan const campaign = plan();
-    EXPECT_EQ(campaign.source.runs, 4);
+    EXPECT_EQ(campaign.sources.front().runs, 4);
     EXPECT_EQ(campaign.targets.at(0).runs, 3);
     EXPECT_EQ(campaign.targets.at(1).overrides, std::vector<std::string>{"evolution.generations=20"});
     EXPECT_EQ(campaign.report_order, (std::vector<std::string>{"none", "all", "kb1"}));
-    EXPECT_EQ(seed_of(campaign.source, 1), 1u);
-    EXPECT_EQ(seed_of(campaign.source, 4), 4u);
+    EXPECT_EQ(seed_of(campaign.sources.front(), 1), 1u);
+    EXPECT_EQ(seed_of(campaign.sources.front(), 4), 4u);
 }
 
 TEST_F(Campaign, is_found_where_it_has_moved) {
     CampaignPlan const campaign = read_campaign(LORE_SOURCE_DIR "/jobs/small.toml");
     EXPECT_EQ(campaign.path, LORE_SOURCE_DIR "/jobs/campaigns/small.toml");
-    EXPECT_EQ(campaign.config_path(campaign.source), LORE_SOURCE_DIR "/jobs/tasks/source.toml");
+    EXPECT_EQ(campaign.config_path(campaign.sources.front()), LORE_SOURCE_DIR "/jobs/tasks/source.toml");
 }
 
 TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     CampaignPlan const paper = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/paper.toml");
-    EXPECT_EQ(paper.source.runs, 30);
+    EXPECT_EQ(paper.sources.front().runs, 30);
     EXPECT_EQ(paper.knowledge.size(), 6u);
     EXPECT_EQ(paper.targets.size(), 7u);
     EXPECT_EQ(paper.report_order.front(), "none");

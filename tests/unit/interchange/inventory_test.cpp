@@ -76,7 +76,7 @@ TEST_F(InventoryTest, keeps_inputs_in_the_same_places_to_each_other) {
                 ElementsAre("inputs/campaigns/c.toml", "inputs/tasks/source.toml", "notes.txt"));
     CampaignPlan const moved = plan_in_pack(plan);
     EXPECT_EQ(moved.path, "inputs/campaigns/c.toml");
-    EXPECT_EQ(moved.config_path(moved.source), "inputs/tasks/source.toml");
+    EXPECT_EQ(moved.config_path(moved.sources.front()), "inputs/tasks/source.toml");
 }
 
 TEST_F(InventoryTest, has_the_files_that_the_worlds_are_made_of) {

@@ -10,7 +10,7 @@ namespace {
 
 CampaignPlan two_treatments() {
     CampaignPlan plan;
-    plan.source.name = "source";
+    plan.sources.emplace_back().name = "source";
     for (char const* name : {"none", "kb1"}) {
         Treatment treatment;
         treatment.name = name;

@@ -10,8 +10,8 @@ namespace {
 CampaignPlan three_treatments() {
     CampaignPlan plan;
     plan.title = "three";
-    plan.source.name = "source";
-    plan.source.runs = 0;
+    plan.sources.emplace_back().name = "source";
+    plan.sources.front().runs = 0;
     for (char const* name : {"a", "b", "c"}) {
         Treatment treatment;
         treatment.name = treatment.label = name;

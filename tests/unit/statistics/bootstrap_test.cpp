@@ -69,6 +69,20 @@ TEST(Bootstrap, interval_of_an_effect_size_holds_it_and_repeats) {
     EXPECT_NEAR(bootstrap_a12(second, first).low, 1 - interval.high, 0.05);
 }
 
+TEST(Bootstrap, interval_of_a_difference_of_means_holds_it_and_repeats) {
+    std::vector<double> const first{5, 7, 9, 6, 8}, second{1, 3, 2, 4, 2.5};
+    Interval const interval = bootstrap_mean_difference(first, second);
+    EXPECT_LT(interval.low, 4.5);
+    EXPECT_GT(interval.high, 4.5);
+    EXPECT_GT(interval.low, 1) << "no draw of the first has a mean below 5, none of the second above 4";
+    EXPECT_LT(interval.high, 8);
+    EXPECT_EQ(bootstrap_mean_difference(first, second).low, interval.low);
+    std::vector<double> const equal{3, 3, 3};
+    EXPECT_EQ(bootstrap_mean_difference(equal, equal).low, 0);
+    EXPECT_EQ(bootstrap_mean_difference(equal, equal).high, 0);
+    EXPECT_THROW(bootstrap_mean_difference(std::vector<double>{}, equal), Error);
+}
+
 TEST(Bootstrap, interval_of_an_effect_size_has_no_width_where_samples_do_not_overlap) {
     std::vector<double> const low{1, 2, 3}, high{4, 5, 6};
     EXPECT_EQ(bootstrap_a12(low, high).high, 0);

@@ -104,6 +104,8 @@ TEST_F(Facts, of_a_run_at_work_are_its_progress_and_the_time_that_is_left) {
         json({{"done", 0}, {"running", 1}, {"interrupted", 0}, {"failed", 0}, {"missing", facts.steps.size() - 1}}));
     EXPECT_EQ(told["seconds_left"], 278);
     EXPECT_EQ(told["treatments"][0]["name"], "source") << "first";
+    EXPECT_EQ(told["treatments"][0]["source"], true);
+    EXPECT_FALSE(told["treatments"][1].contains("source") || told["treatments"][1].contains("target"));
     EXPECT_EQ(told["treatments"][1]["curve"], json::parse("[[0, 0.0, 1], [1, 2.0, 1], [2, 4.0, 1]]"));
     for (json const& step : told["steps"]) {
         if (step["name"] != "none/001") continue;

@@ -17,7 +17,7 @@ from .checksum import checksum_text, xxh3_64
 from .errors import Damaged
 from .individuals import Genome, Individual, Individuals, Lineage
 from .knowledge import Contrast, Credit, KnowledgeBase, Returns
-from .report import SOURCE, Report, Scene
+from .report import SOURCE, Report, Scene, WorldScene
 from .run import Manifest, Run, read_manifest, read_progress
 from .table import Table, read_table
 from .trace import Trace, read_trace
@@ -27,6 +27,6 @@ __version__ = "1.0.0"
 __all__ = [
     "BINARY", "CHANNELS", "CONTINUOUS", "EFFECTORS", "SENSORS", "SOURCE",
     "Campaign", "Contrast", "Credit", "Damaged", "Genome", "Individual", "Individuals", "KnowledgeBase", "Lineage",
-    "Manifest", "Report", "Returns", "Run", "Scene", "Table", "Trace",
+    "Manifest", "Report", "Returns", "Run", "Scene", "Table", "Trace", "WorldScene",
     "checksum_text", "read_manifest", "read_progress", "read_table", "read_trace", "xxh3_64",
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Figures 3 to 6 of the paper from the tables of a report, with matplotlib.
+"""Figures 3 to 6 of the paper from the tables of a report, with matplotlib; of several target tasks 3 and 4 of each.
 
     python3 -m lore.plot runs/small --out figures --formats svg png
 
@@ -8,7 +8,10 @@ are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from
 from __future__ import annotations
 
 import argparse
+import io
 import os
+import shutil
+import subprocess
 import sys
 from typing import Any, Callable, Sequence
 
@@ -17,12 +20,13 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Rectangle
 from numpy.typing import NDArray
 
 from .errors import Damaged, FilePath
-from .report import SOURCE, Report, Scene
+from .report import Report, Scene, WorldScene
 from .table import Table
 
 COLORS = ("#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7")
@@ -33,15 +37,20 @@ _SOURCE_COLOR, _GRAY, _WALL = "#777777", "#8c8c8c", "#3a3a3a"
 _STEPS_BETWEEN_ROBOTS = 50
 
 
-def figure3(report: Report | FilePath) -> Figure:
-    """Mean reward of the best-of-run by generation, a line a treatment with its 95 % bootstrap band."""
+def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
+    """Mean reward of the best-of-run by generation, a line a treatment with its 95 % bootstrap band.
+
+    `task`: one of Report.tasks, whose treatments are shown; rewards of several tasks share no axis.
+    """
     report = _report(report)
-    curves, treatments, names = report.curves, _targets(report), report.labels
-    target_rows = curves["generation"][curves["treatment"] != SOURCE]
+    curves, treatments, names = report.curves, _targets(report, task), report.labels
+    target_rows = curves["generation"][np.isin(curves["treatment"], treatments)]
     last = target_rows.max() if len(target_rows) else np.inf  # source runs may be longer
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
-    axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report)} (mean of best-of-runs)")
-    for treatment, style in [(SOURCE, {"color": _SOURCE_COLOR, "dashes": (5, 3)}), *_styles(treatments)]:
+    axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report, task)} (mean of best-of-runs)")
+    sources = report.sources if task is None else []
+    dashed = {"color": _SOURCE_COLOR, "dashes": (5, 3)}
+    for treatment, style in [*((source, dashed) for source in sources), *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
         if len(rows) == 0:
             continue
@@ -60,19 +69,25 @@ def figure3(report: Report | FilePath) -> Figure:
     return figure
 
 
-def _reward(report: Report) -> str:
-    return "collected balls" if report.reward_word == "balls" else f"reward [{report.reward_unit}]"
+def _reward(report: Report, task: str | None) -> str:
+    if report.reward_word == "balls":
+        return "collected balls"
+    if task is None:
+        return f"reward [{report.reward_unit}]"
+    final = report.final
+    units = final["unit"][np.isin(final["treatment"], report.tasks[task])]
+    return f"reward [{units[0]}]" if len(units) else "reward"
 
 
-def figure4(report: Report | FilePath) -> Figure:
+def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
     """A boxplot a target treatment at the last generation, every run a point; brackets over pairs with p < 0.01 (*)
-    and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper."""
+    and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper. `task`: as of figure3."""
     report = _report(report)
     final = report.final
-    treatments = [name for name in _targets(report) if len(final.where(treatment=name))]
+    treatments = [name for name in _targets(report, task) if len(final.where(treatment=name))]
     rewards = [final.where(treatment=name)[report.reward_word] for name in treatments]
     figure = Figure(figsize=(max(4.0, 1.1 + 1.05 * len(treatments)), 5.2), layout="constrained")
-    axes = figure.add_subplot(ylabel=f"{_reward(report)} (best-of-run)")
+    axes = figure.add_subplot(ylabel=f"{_reward(report, task)} (best-of-run)")
     for place, (of_one, (_, style)) in enumerate(zip(rewards, _styles(treatments)), 1):
         axes.boxplot(of_one, positions=[place], widths=0.55, showfliers=False, patch_artist=True,
                      boxprops={"facecolor": (*to_rgb(style["color"]), 0.18)},
@@ -107,7 +122,7 @@ def figure6(report: Report | FilePath) -> Figure:
     return _panels(_report(report), "figure6")
 
 
-FIGURES: dict[str, Callable[[Report], Figure]] = {
+FIGURES: dict[str, Callable[..., Figure]] = {
     "figure3": figure3,
     "figure4": figure4,
     "figure5": figure5,
@@ -127,11 +142,15 @@ def save_figures(report: Report | FilePath, directory: FilePath, formats: Sequen
         for name, draw in FIGURES.items():
             if name in ("figure5", "figure6") and not _has_panels(report, name):
                 continue
-            figure = draw(report)
-            for kind in formats:
-                path = os.path.join(os.fspath(directory), f"{name}.{kind}")
-                figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
-                written.append(path)
+            by_task = name in ("figure3", "figure4") and report.tasks
+            drawn = (
+                {f"{name}_{task}": draw(report, task) for task in report.tasks} if by_task else {name: draw(report)}
+            )
+            for stem, figure in drawn.items():
+                for kind in formats:
+                    path = os.path.join(os.fspath(directory), f"{stem}.{kind}")
+                    figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+                    written.append(path)
     return written
 
 
@@ -139,11 +158,12 @@ def _report(report: Report | FilePath) -> Report:
     return report if isinstance(report, Report) else Report(report)
 
 
-def _targets(report: Report) -> list[str]:
-    """Target treatments in the order of figures."""
+def _targets(report: Report, task: str | None) -> list[str]:
+    """Target treatments in the order of figures, all or those of one target task."""
     there = dict.fromkeys(report.final["treatment"].tolist())
     ordered = [name for name in report.labels if name in there]
-    return [name for name in dict.fromkeys([*ordered, *there]) if name != SOURCE]
+    shown = report.tasks[task] if task is not None else [name for name in there if name not in report.sources]
+    return [name for name in dict.fromkeys([*ordered, *there]) if name in shown]
 
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
@@ -207,17 +227,31 @@ def _panels(report: Report, figure_name: str) -> Figure:
     return figure
 
 
-def _draw_panel(part: Any, scene: Scene, steps: Table, values: NDArray[np.float64], factors: int, title: str) -> None:
+def _range(values: NDArray[np.float64], arena: bool) -> tuple[float, float]:
+    """Of the colors: from 0 in an arena, where no value is negative."""
+    known = values[np.isfinite(values)]
+    least, most = (0.0 if arena else known.min(initial=0.0)), known.max(initial=0.0)
+    return least, (most if most > least else least + 1)
+
+
+def _draw_panel(part: Any, scene: Scene | WorldScene, steps: Table, values: NDArray[np.float64], factors: int,
+                title: str) -> None:  # fmt: skip
     """The plan with the trajectory above, the values over time below."""
-    product = factors > 1
-    found = values > 0 if product else values >= 0  # as the report has it: -1, or 0 in a product, is not found
-    norm = Normalize(0, values.max() if values.max() > 0 else 1)
-    what = f"product of the values (balls$^{factors}$)" if product else "value (balls)"
+    product, arena = factors > 1, isinstance(scene, Scene)
+    if isinstance(scene, Scene):  # as the report has it: -1, or 0 in a product, is not found
+        found, unit = values > 0 if product else values >= 0, "balls"
+    else:
+        found, unit = np.isfinite(values), scene.reward_unit
+    norm = Normalize(*_range(values, arena))
+    what = f"product of the values ({unit}$^{factors}$)" if product else f"value ({unit})"
     plan, strip = part.subplots(2, 1, gridspec_kw={"height_ratios": [3.3, 1]})
     plan.set_title(title, loc="left", fontsize=11)
-    _draw_scene(plan, scene)
-    _draw_robots(plan, scene, steps)
-    _draw_legend(plan, scene)
+    if isinstance(scene, Scene):
+        _draw_scene(plan, scene)
+        _draw_robots(plan, scene, steps)
+        _draw_legend(plan, scene)
+    else:
+        _draw_world(plan, scene, steps)
     length = -(-len(steps) // len(values))  # [steps] a window, the last may be incomplete
     places = np.stack([steps["x"], steps["y"]], axis=1)
     pieces = [places[at : at + length + 1] for at in range(0, len(places) - 1, length)]
@@ -228,7 +262,8 @@ def _draw_panel(part: Any, scene: Scene, steps: Table, values: NDArray[np.float6
     lines = _draw_lines(plan, colored, array=values[: len(pieces)][known[: len(values)]], cmap=VALUE_COLORS, norm=norm,
                         linewidths=1.7)  # fmt: skip
     part.colorbar(lines, ax=plan, label=what, shrink=0.8)
-    _draw_strip(strip, values, found, length, 0.0 if product else -1.0, what)
+    not_found = (0.0 if product else -1.0) if arena else float(norm.vmin)
+    _draw_strip(strip, values, found, length, not_found, max(norm.vmax, 1.0) if arena else float(norm.vmax), what)
 
 
 def _draw_lines(axes: Any, lines: list[NDArray[np.float64]], **style: Any) -> LineCollection:
@@ -249,6 +284,35 @@ def _draw_scene(axes: Any, scene: Scene) -> None:
     axes.plot(*scene.balls.T, "o", color="#e8a800", mec="#222222", ms=7, zorder=4)
     axes.plot(*scene.basket_lights.T, "o", color="#2f9e6e", mec="#222222", ms=4.5, zorder=4)
     axes.plot(*scene.switch, "s", color="#8e4fb0", mec="#222222", ms=7, zorder=4)
+
+
+def _draw_world(axes: Any, scene: WorldScene, steps: Table) -> None:
+    """The world's own scene below the path, whose start is green and whose end is red."""
+    width, height = scene.size
+    axes.set(xlim=(0, width), ylim=(height, 0), aspect="equal", xlabel="x", ylabel="y")
+    if scene.svg:
+        axes.imshow(_rendered(scene), extent=(0, width, height, 0), zorder=0, interpolation="antialiased")
+    for step, color in ((0, "#2f9e6e"), (-1, "#e0452f")):
+        axes.plot(steps["x"][step], steps["y"][step], "o", color=color, mec="#222222", mew=0.8, ms=7, zorder=4)
+    axes.plot([], [], color=_GRAY, lw=1.5, label="not in the knowledge base")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), frameon=False, fontsize=8)
+
+
+def _rendered(scene: WorldScene) -> NDArray[Any]:
+    """The scene as pixels. Raises OSError where the program that draws SVG is not there, or cannot draw this one."""
+    program = shutil.which("rsvg-convert")
+    if program is None:
+        raise OSError("the world's scene is SVG, and there is no program rsvg-convert (Debian: package librsvg2-bin)")
+    width, height = scene.size
+    scale = 1200 / max(width, height)
+    document = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width * scale}" height="{height * scale}" '
+        f'viewBox="0 0 {width} {height}">{scene.svg}</svg>'
+    )
+    done = subprocess.run([program, "--format", "png"], input=document.encode(), capture_output=True)
+    if done.returncode != 0:
+        raise OSError(f"rsvg-convert cannot draw the world's scene: {done.stderr.decode(errors='replace').strip()}")
+    return np.asarray(imread(io.BytesIO(done.stdout)))
 
 
 def _draw_robots(axes: Any, scene: Scene, steps: Table) -> None:
@@ -282,13 +346,13 @@ def _draw_legend(axes: Any, scene: Scene) -> None:
 
 
 def _draw_strip(axes: Any, values: NDArray[np.float64], found: NDArray[np.bool_], length: int, not_found: float,
-                what: str) -> None:  # fmt: skip
+                most: float, what: str) -> None:  # fmt: skip
     shown = np.where(found, values, not_found)
     edges = np.arange(len(values) + 1) * length
     axes.stairs(shown, edges, baseline=None, color=VALUE_COLORS(0.85), lw=1)
     missing = [np.array([[edges[i], not_found], [edges[i + 1], not_found]]) for i in np.flatnonzero(~found)]
     _draw_lines(axes, missing, color=_GRAY, linewidths=4)
-    least, most = min(not_found, 0), max(shown.max(), 1)
+    least = min(not_found, 0)
     room = 0.06 * (most - least)
     axes.set(xlim=(0, edges[-1]), ylim=(least - room, most + room), xlabel="time (steps)", ylabel=what)
     axes.grid(axis="y", color="#dddddd", linewidth=0.7)

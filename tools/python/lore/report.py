@@ -3,16 +3,16 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import Damaged, FilePath
 from .run import read_json
-from .table import Table, read_table
+from .table import Table, parse_table, read_table, read_text
 
-SOURCE = "source"  #: the treatment of the source task
+SOURCE = "source"  #: the treatment of the source task, where it has no name of its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +52,24 @@ def _scene(document: dict[str, Any]) -> Scene:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class WorldScene:
+    """What pictures show of another world than an arena."""
+
+    size: NDArray[np.float64]  #: (2,), width and height in its own unit of length; y downwards
+    svg: str  #: elements in that unit, drawn below the path; may be empty
+    reward_unit: str
+
+
+def _world_scene(replay: dict[str, Any]) -> WorldScene:
+    """Raises KeyError, TypeError or ValueError for what is no scene."""
+    world = replay["world"]
+    size = np.array([world["width"], world["height"]], np.float64)
+    if not (np.isfinite(size).all() and (size > 0).all()):
+        raise ValueError("a world without extent")
+    return WorldScene(size, str(world["svg"]), str(replay["reward_unit"]))
+
+
 class Report:
     """What `lore-campaign report` wrote: into the campaign's directory, or elsewhere by --out.
 
@@ -80,12 +98,29 @@ class Report:
 
     @property
     def reward_unit(self) -> str:
-        """Of the target task; of the source task as long as no target run is finished."""
+        """Of the (first) target task; of the source task as long as no target run is finished."""
         if self.reward_word == "balls":
             return "balls"
         final = self.final
-        targets = final["unit"][final["treatment"] != SOURCE]
+        targets = final["unit"][~np.isin(final["treatment"], self.sources)]
         return str((targets if len(targets) else final["unit"])[0])
+
+    @property
+    def sources(self) -> list[str]:
+        """The treatments of the source tasks."""
+        if not os.path.exists(self._file("summary.json")):
+            return [SOURCE]
+        return [str(name) for name in self.summary.get("sources", [SOURCE])]
+
+    @property
+    def tasks(self) -> dict[str, list[str]]:
+        """The treatments of each target task, in the order of figures; empty where the campaign names no tasks."""
+        tasks: dict[str, list[str]] = {}
+        if os.path.exists(self._file("summary.json")):
+            for entry in self.summary.get("treatments", []):
+                if "target" in entry:
+                    tasks.setdefault(str(entry["target"]), []).append(str(entry["treatment"]))
+        return tasks
 
     @property
     def runs(self) -> Table:
@@ -118,10 +153,18 @@ class Report:
                            p_holm="float", a12="float")  # fmt: skip
 
     @property
+    def matrix(self) -> Table:
+        """A row a source and target task of a campaign with [transfer] (matrix.csv); numbers are nan where `why` says
+        why there are none."""
+        numbers = ("generation", "n", "n_none", "mean", "mean_none", "difference", "difference_low", "difference_high",
+                   "a12", "a12_low", "a12_high", "p", "p_holm")  # fmt: skip
+        return self._with_gaps("matrix.csv", numbers, source="text", target="text", why="text")
+
+    @property
     def replay(self) -> Table:
         """The robots of figures 5 and 6 and of the page, a row a step; in other worlds than an arena replay, step, x, y
         and reward."""
-        if self.reward_word != "balls":
+        if "theta" not in read_text(self._file("replay.csv")).split("\n", 1)[0].split(","):
             return self._table("replay.csv", replay="text", step="int", x="float", y="float", reward="float")
         return self._table("replay.csv", replay="text", step="int", x="float", y="float", theta="float",
                            carrying="int", door_open="int", switch_on="int", balls_mask="int",
@@ -129,15 +172,20 @@ class Report:
 
     @property
     def values(self) -> Table:
-        """The values of figures 5 and 6, a row a window: figure, knowledge, window, value."""
-        return self._table("values.csv", figure="text", knowledge="text", window="int", value="float")
+        """The values of figures 5 and 6, a row a window: figure, knowledge, window, value. One that is not found is -1,
+        0 of a product; in other worlds than arenas nan."""
+        return self._with_gaps("values.csv", ("value",), figure="text", knowledge="text", window="int")
 
     @property
-    def scenes(self) -> dict[str, Scene]:
-        """By the name of the replay ("source/001"); the source run that figures 5 and 6 show comes first."""
+    def scenes(self) -> dict[str, Scene | WorldScene]:
+        """By the name of the replay ("source/001"); the source run that figures 5 and 6 show comes first. All are
+        arenas, or all are shown as worlds are."""
         document = read_json(self._file("scene.json"))
         try:
-            return {str(replay["run"]): _scene(replay["scene"]) for replay in document["replays"]}
+            return {
+                str(replay["run"]): _world_scene(replay) if "world" in replay else _scene(replay["scene"])
+                for replay in document["replays"]
+            }
         except (KeyError, TypeError, ValueError) as error:
             raise Damaged(self._file("scene.json"), f"it does not describe replays: {error!r}") from error
 
@@ -165,6 +213,17 @@ class Report:
 
     def _file(self, name: str) -> str:
         return os.path.join(self.path, name)
+
+    def _with_gaps(self, name: str, numbers: Sequence[str], **columns: str) -> Table:
+        """A table in which these columns may have empty fields, which are nan."""
+        table = read_table(self._file(name), {**columns, **dict.fromkeys(numbers, "text")})
+        arrays: dict[str, NDArray[Any]] = {column: table[column] for column in table}
+        for column in numbers:
+            fields = arrays[column]
+            numbers_there = parse_table("\n".join([column, *fields[fields != ""], ""]), self._file(name), {column: "float"})
+            arrays[column] = np.full(len(fields), np.nan)
+            arrays[column][fields != ""] = numbers_there[column]
+        return Table(arrays)
 
     def _table(self, name: str, **columns: str) -> Table:
         if self.reward_word != "balls":  # the tables of another unit say "reward" and have fractions

@@ -1,0 +1,111 @@
+#include "knowledge_tables.h"
+
+#include "knowledge_kinds.h"
+#include "plan_reading.h"
+
+#include <lore/core/error.h>
+#include <lore/experiment/knowledge_building.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace lore {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// The source whose runs it comes from: of its base, the one that it names, or the only one.
+std::string source_of(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
+    if (!knowledge.base.empty()) return plan.knowledge_base(knowledge.base).source;
+    if (!knowledge.source.empty()) {
+        require_known(table, knowledge.best_run ? "best_of" : "source", knowledge.source, names_of(plan.sources));
+        return knowledge.source;
+    }
+    if (plan.sources.size() > 1)
+        table.fail("name", fmt::format("it does not say of which of the {} source tasks", plan.sources.size()),
+                   fmt::format("Add source = \"{}\", or another.", plan.sources.front().name));
+    return plan.sources.front().name;
+}
+
+void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
+    Names const bases = names_of(plan.knowledge);
+    require_new(table, knowledge.name, bases);
+    KnowledgeKindRow const& kind = row_of(knowledge.kind);
+    if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
+    for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
+    if (kind.base_has_lineage && plan.knowledge_base(knowledge.base).kind != KnowledgeKind::lineage)
+        table.fail(kind.key, "it must name a knowledge base with 'balls', 'reward' or 'run'");
+}
+
+bool has_option(KnowledgePlan const& knowledge, std::string_view option) {
+    return std::any_of(knowledge.options.begin(), knowledge.options.end(),
+                       [&](std::string const& word) { return word.starts_with(option); });
+}
+
+/// Discounts of which a base gathers returns so that those of `gamma` are among them. Those that its options name come
+/// on top.
+std::vector<double> gammas_with(double gamma, KnowledgePlan const& built) {
+    bool const has_own = has_option(built, "--gammas");
+    std::vector<double> gammas = built.gammas;
+    if (gammas.empty() && !has_own) gammas = default_gammas();
+    if (std::find(gammas.begin(), gammas.end(), gamma) != gammas.end()) return built.gammas;
+    gammas.insert(std::upper_bound(gammas.begin(), gammas.end(), gamma), gamma);
+    return gammas;
+}
+
+/// Has the base that the evidence comes from gather what the rule needs.
+void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, CampaignPlan& plan) {
+    std::string const from = built_base(plan, revalued).name;
+    KnowledgePlan& built = *std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
+                                         [&](KnowledgePlan const& k) { return k.name == from; });
+    ValueConfig const& value = revalued.value;
+    try {
+        check_evidence_of(built.kind == KnowledgeKind::all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
+    } catch (UsageError const& error) { table.fail("value", error.what()); }
+    if (value.rule == ValueRule::discounted_return) {
+        built.gammas = gammas_with(value.gamma, built);
+        if (built.gammas.size() > most_gammas)
+            table.fail("gamma", fmt::format("'{}' would need returns for more than {} gammas", from, most_gammas),
+                       "Revalue by fewer.");
+    }
+    if (!value.success_reward) return;
+    if (has_option(built, "--success"))
+        table.fail("success", fmt::format("the options of '{}' have --success", from), "Leave one of the two out.");
+    if (built.success_reward && built.success_reward != value.success_reward)
+        table.fail("success", fmt::format("'{}' counts successes of {} already", from, *built.success_reward),
+                   "Build another base for it.");
+    built.success_reward = value.success_reward;
+}
+
+}   // namespace
+
+void add_knowledge(TomlTable const& table, KnowledgePlan knowledge, CampaignPlan& plan) {
+    check_knowledge(table, knowledge, plan);
+    knowledge.source = source_of(table, knowledge, plan);
+    Treatment const& source = plan.treatment(knowledge.source);
+    if (knowledge.run > source.runs)
+        table.fail("run", fmt::format("there are only {} {} runs", source.runs, source.name),
+                   "Name one of them, or raise their number.");
+    if (knowledge.kind == KnowledgeKind::revalued) ask_for_evidence(table, knowledge, plan);
+    plan.knowledge.push_back(std::move(knowledge));
+}
+
+void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
+    for (TomlTable const& table : document.tables("knowledge")) add_knowledge(table, read_knowledge(table), plan);
+    for (Treatment const& source : plan.sources) {
+        auto const from_lineages =
+            std::count_if(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& k) {
+                return k.kind == KnowledgeKind::lineage && k.source == source.name;
+            });
+        if (from_lineages > source.runs)
+            document.fail("knowledge", fmt::format("{} knowledge bases need as many {} runs, and there are {}",
+                                                   from_lineages, source.name, source.runs));
+    }
+}
+
+}   // namespace lore
