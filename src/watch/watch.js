@@ -154,8 +154,12 @@ function labelCurves(chart, treatments, x, y, top) {
   const labels = treatments.map(treatment => ({ treatment, x: x(treatment.curve.at(-1)[0]) + 6, y: y(treatment.curve.at(-1)[1]) + 4 }));
   labels.sort((a, b) => b.y - a.y);
   labels.forEach((label, i) => { if (i > 0) label.y = Math.max(top, Math.min(label.y, labels[i - 1].y - 14)); });
+  // "hard maze: " of every treatment on the hard maze stands above the chart already.
+  const before = labels[0].treatment.label.split(": ", 1)[0] + ": ";
+  const shared = labels[0].treatment.target !== undefined && labels.every(({ treatment }) => treatment.label.startsWith(before));
   for (const { treatment, x, y } of labels) {
-    const text = treatment.label.length > 20 ? treatment.label.slice(0, 19) + "\u2026" : treatment.label;
+    const label = shared ? treatment.label.slice(before.length) : treatment.label;
+    const text = label.length > 20 ? label.slice(0, 19) + "\u2026" : label;
     chart.append(element("text", { x, y, style: `fill: ${color(treatment.index)}` }, text));
   }
 }
