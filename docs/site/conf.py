@@ -44,13 +44,14 @@ html_theme_options = {"top_of_page_button": None}
 
 
 def link_directories(app, docname, text):
-    """A link to a folder that has a page of its own is one to that page."""
+    """A link to a folder that has a page of its own is one to that page, and README.md is the front page."""
     here = posixpath.dirname(docname)
 
     def linked(match):
         page = posixpath.normpath(posixpath.join(here, match[1], "index"))
         return f"]({match[1]}/index.md)" if page in app.env.found_docs else match[0]
 
+    text[0] = re.sub(r"\]\(((?:\.\./)*)README\.md", r"](\1index.md", text[0])
     text[0] = re.sub(r"\]\(([\w./-]+)\)", linked, text[0])
 
 

@@ -13,6 +13,7 @@ def write_all(source, pages, xml, programs):
     """Fills the folder `pages`, new: Sphinx's sources. `xml` is Doxygen's folder, `programs` paths by name."""
     mirror(source, pages)
     sections = {
+        "Tutorials": written(source, "tutorials"),
         "Manual": written(source, "manual"),
         "Design": written(source, "design"),
         "Findings": written(source, "findings") + [write_gallery(source, pages)],
@@ -32,8 +33,9 @@ def mirror(source, pages):
 
 
 def written(source, section):
-    """The pages of a folder of docs/, in the order in which README.md names them, then any that it does not."""
-    order = re.findall(r"\]\((docs/[\w/]+)\.md\)", (source / "README.md").read_text())
+    """The pages of a folder of docs/, in the order of README.md's list of documentation, then any that it does not have."""
+    listed = (source / "README.md").read_text().split("\n## Documentation\n")[-1]
+    order = re.findall(r"\]\((docs/[\w/-]+)\.md\)", listed)
     found = [f"docs/{section}/{file.stem}" for file in sorted((source / "docs" / section).glob("*.md"))]
     return sorted(found, key=lambda page: order.index(page) if page in order else len(order))
 

@@ -4,8 +4,8 @@
  *
  *     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC -I INCLUDE mine.c -o mine.so -lm
  *
- * where INCLUDE is the folder that has lore/world.h; test it with `lore-world check ./mine.so`. docs/manual/worlds.md
- * has the way step by step, docs/examples/pendulum a complete world.
+ * where INCLUDE is the folder that has lore/world.h; test it with `lore-world check ./mine.so`.
+ * docs/tutorials/own-world.md has the way step by step, docs/examples/pendulum a complete world.
  *
  * WORDS. A *world* is what lore_world_v1.open makes of the settings: one task, with its constants. A *life* is one
  * evaluation of one controller in it, from the start of the world to its end. A *batch* is n lives side by side. At

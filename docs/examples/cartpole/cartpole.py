@@ -4,7 +4,7 @@
 
 The task of A. G. Barto, R. S. Sutton and C. W. Anderson, Neuronlike adaptive elements that can solve difficult learning
 control problems, IEEE Transactions on Systems, Man, and Cybernetics 13 (1983), with their constants, but for the pole's
-length and the start: a pole that leans a little, so that it must be caught. docs/manual/worlds.md goes through it.
+length and the start: a pole that leans a little, so that it must be caught. docs/manual/worlds.md shows its parts.
 """
 import math
 

@@ -5,7 +5,7 @@
  *
  * The swing-up task of K. Doya, Reinforcement learning in continuous time and space, Neural Computation 12 (2000):
  * pole of 1 m and 1 kg, friction 0.01, torque at most 5 N m (9.8 would lift it), steps of 0.02 s, the cosine of the angle
- * as reward. docs/manual/worlds.md goes through it. */
+ * as reward. docs/manual/worlds.md shows its parts. */
 #include <lore/world.h>
 
 #include <math.h>
