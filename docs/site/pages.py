@@ -16,7 +16,7 @@ def write_all(source, pages, xml, programs):
         "Tutorials": written(source, "tutorials"),
         "Manual": written(source, "manual"),
         "Design": written(source, "design"),
-        "Findings": written(source, "findings") + [write_gallery(source, pages)],
+        "Findings": written(source, "findings") + ["docs/paper", write_gallery(source, pages)],
         "Reference": [write_programs(pages, programs), write_python_reference(pages),
                       write_cpp_reference(source, pages, xml), "CHANGELOG"],
     }
