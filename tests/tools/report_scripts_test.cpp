@@ -1,4 +1,5 @@
-// tools/bench-report and tools/scaling-report: what they write from recorded measurements, and that they can measure.
+// tools/bench-report, tools/bench-compare and tools/scaling-report: what they write from recorded measurements, and
+// that they can measure.
 #include "support/command.h"
 #include "support/program.h"
 #include "support/scratch.h"
@@ -6,6 +7,7 @@
 #include <gmock/gmock.h>
 
 using namespace lore;
+namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -23,6 +25,54 @@ protected:
 
     Scratch scratch;
     std::string const results = scratch.file("results.md");
+};
+
+/// Builds whose programs only say what they would have measured.
+class BuildsThatAreCompared : public ReportScripts {
+protected:
+    /// Generations take `ms`, but 1 ms more from the second run on; a step takes `ns`.
+    void make_build(std::string const& name, int ms, int ns, std::string const& signature = "00000000000000aa") {
+        std::string const bin = scratch.file(name + "/bin");
+        fs::create_directories(bin);
+        program(bin + "/lore-evolve", R"sh(#!/bin/sh
+if [ "$1" = --version ]; then
+  echo "lore-evolve 1.0.0 (commit 0123456789ab)"
+  echo "compiled by g++ 12.2.0, Release"
+  echo "instruction set v4 (16 floats a vector)"
+  exit
+fi
+while [ $# -gt 0 ]; do
+  if [ "$1" = --out ]; then out=$2; fi
+  shift
+done
+ms=)sh" + std::to_string(ms) + R"sh(
+if [ -e "$0.ran" ]; then ms=$((ms + 1)); fi
+touch "$0.ran"
+mkdir "$out"
+printf 'generation,best_balls,seconds\n0,0,0.000\n1,0,0.0%02d\n' $ms >"$out/progress.csv"
+echo signature: )sh" + signature + "\n");
+        program(bin + "/lore-bench", R"sh(#!/bin/sh
+if [ "$1" = --benchmark_list_tests ]; then
+  echo episode/batch_of_200/40_connections/v4
+  exit
+fi
+echo '{"benchmarks": [{"name": "", "run_name": "episode/batch_of_200/40_connections/v4", "run_type": "iteration",'
+echo ' "cpu_time": 1.0, "time_unit": "ms", "step": )sh" +
+                                         std::to_string(ns) + R"sh(e-9}]}'
+)sh");
+    }
+    test::Ran compare(std::string const& arguments) {
+        return test::run_program("cd " + scratch.path() +
+                                     " && python3 -B " LORE_SOURCE_DIR "/tools/bench-compare --busy-anyway " +
+                                     arguments,
+                                 scratch.path());
+    }
+
+private:
+    static void program(std::string const& path, std::string const& text) {
+        std::ofstream{path} << text;
+        fs::permissions(path, fs::perms::owner_all);
+    }
 };
 
 }   // namespace
@@ -68,6 +118,42 @@ TEST_F(ReportScripts, measure_a_part_that_is_asked_for_alone) {
     EXPECT_THAT(ran.output, Not(HasSubstr("one step")));
 }
 #endif
+
+TEST_F(BuildsThatAreCompared, take_turns_and_get_the_median_ratio_of_their_pairs_and_its_range) {
+    make_build("old", 20, 30);
+    make_build("new", 10, 24);
+    test::Ran const ran = compare("old new --pairs 3 --only step,source --csv table.csv");
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr("A: the build in old (0123456789ab)."));
+    EXPECT_THAT(ran.output, HasSubstr("Medians of 3 pairs in turn"));
+    EXPECT_THAT(ran.output,
+                HasSubstr("| one step, 40 connections, AVX-512 | 30 ns | 24 ns | 0.800 | 0.800 .. 0.800 |"));
+    EXPECT_THAT(ran.output, HasSubstr("| source generation, 1 rank | 21 ms | 11 ms | 0.524 | 0.500 .. 0.524 |"));
+    EXPECT_THAT(ran.output, Not(HasSubstr("200 connections")));   // they do not have it
+    EXPECT_THAT(ran.output, Not(HasSubstr("differ")));
+    EXPECT_THAT(file_text(scratch.file("table.csv")),
+                StartsWith("figure,unit,a,b,ratio,least,most,pairs\n"
+                           "\"one step, 40 connections, AVX-512\",ns,30,24,0.8000,0.8000,0.8000,3\n"));
+}
+
+TEST_F(BuildsThatAreCompared, are_told_apart_where_their_runs_are_not_the_same_run) {
+    make_build("old", 20, 30);
+    make_build("other", 20, 30, "00000000000000bb");
+    test::Ran const ran = compare("old other --pairs 1 --only source");
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr("**The source runs differ**: signature 00000000000000aa of A, 00000000000000bb"));
+}
+
+TEST_F(BuildsThatAreCompared, must_be_builds_or_commits) {
+    make_build("old", 20, 30);
+    test::Ran const ran = compare("old no-such-commit");
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.errors, StartsWith("bench-compare: 'no-such-commit' is neither a commit nor a build folder"));
+    test::Ran const unknown = compare("old old --only stride");
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_THAT(unknown.errors, HasSubstr("unknown part 'stride'"));
+    EXPECT_EQ(compare("old old --pairs 0").exit_code, 2);
+}
 
 TEST_F(ReportScripts, keep_the_tables_of_scaling_md_those_of_its_csv) {
     std::string const committed = LORE_SOURCE_DIR "/docs/findings/scaling.md", copy = scratch.file("scaling.md");

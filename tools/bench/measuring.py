@@ -1,4 +1,4 @@
-"""What bench-report and scaling-report share: running Lore's programs and reading what they say."""
+"""What bench-report, bench-compare and scaling-report share: running Lore's programs and reading what they say."""
 
 import csv
 import json
@@ -57,11 +57,15 @@ def machine(build):
             "date": time.strftime("%Y-%m-%d")}
 
 
+def processor_line(where):
+    return (f"{where['compiler']}, {where['mpi']}; {where['cpu']}, {where['processors']} processors, instruction set "
+            f"{where['isa']}; {where['date']}.")
+
+
 def described(where):
     commit = where["commit"]
     clean = "with changes that are not committed" if commit.endswith("-dirty") else "clean"
-    return (f"Commit `{commit.removesuffix('-dirty')}` ({clean}), {where['compiler']}, {where['mpi']}; {where['cpu']}, "
-            f"{where['processors']} processors, instruction set {where['isa']}; {where['date']}.")
+    return f"Commit `{commit.removesuffix('-dirty')}` ({clean}), {processor_line(where)}"
 
 
 # Programs
@@ -93,6 +97,11 @@ def run(command):
     done = subprocess.run(command, capture_output=True, text=True, env=environment(), check=False)
     complain_unless_done(command, done.returncode, done.stderr)
     return done
+
+
+def benchmark_names(build):
+    names = set(run([program(build, "lore-bench"), "--benchmark_list_tests"]).stdout.split())
+    return names | {name.split("/iterations:")[0] for name in names}
 
 
 def benchmarks(build, cases, repetitions, seconds):
@@ -141,9 +150,15 @@ class Resident:
                 self.most, self.files = size("VmHWM"), size("RssFile") + size("RssShmem")
 
 
-def start_evolution(build, task, directory, *, ranks=1, generations=None, kb=None, settings=(), archive=None, seed=1):
-    config = SOURCE / "jobs" / f"{task}.toml"
-    command = [program(build, "lore-evolve"), str(config), "--seed", str(seed), "--out", directory]
+def task_file(source, task):
+    """The configuration of a task; earlier commits have it in another folder."""
+    now, before = source / "jobs" / "tasks" / f"{task}.toml", source / "jobs" / f"{task}.toml"
+    return str(before if before.exists() else now)
+
+
+def start_evolution(build, task, directory, *, source=SOURCE, ranks=1, generations=None, kb=None, settings=(),
+                    archive=None, seed=1):
+    command = [program(build, "lore-evolve"), task_file(source, task), "--seed", str(seed), "--out", directory]
     if generations is not None:
         settings = (f"evolution.generations={generations}", *settings)
     for setting in settings:
@@ -189,7 +204,7 @@ def evolve(build, task, **options):
             if pid:
                 break
             resident.look()
-            time.sleep(0.01)
+            time.sleep(0.05)   # what looks often takes a processor from the ranks
         process.returncode = os.waitstatus_to_exitcode(status)
         attention = min(1.0, (usage.ru_utime + usage.ru_stime) / (time.monotonic() - begin))
         memory = {"resident": resident.most, "resident_files": resident.files}
