@@ -3,6 +3,8 @@
 #include "distance_farm.h"
 #include "evaluation_farm.h"
 
+#include <lore/core/stopwatch.h>
+
 #include <fmt/format.h>
 
 #include <cstring>
@@ -36,6 +38,7 @@ bool Farm::broken() const { return parts_->state.broken; }
 
 std::vector<RankTimes> Farm::stop() {
     FarmState& state = parts_->state;
+    state.times.processor = processor_seconds();
     std::vector<RankTimes> times{state.times};
     if (!std::exchange(state.working, false)) return times;
     for (int worker = 1; worker < state.ranks(); ++worker) state.post.send(worker, MessageKind::stop, 0, {});

@@ -91,6 +91,7 @@ void serve(Communicator const& communicator, EvaluationContext context) {
             times.distances += watch.lap();
         }
     }
+    times.processor = processor_seconds();
     post.send(0, MessageKind::times, 0, std::as_bytes(std::span{&times, 1}));
     post.flush();
 }

@@ -37,6 +37,13 @@ void Progress::start_at(std::int64_t done) {
     began_ = Clock::now();
 }
 
+void Progress::tell(std::string_view line) {
+    if (quiet_) return;
+    write_stderr(fmt::format("{}{}\n", bar_open_ ? "\r\x1b[K" : "", line));
+    bar_open_ = false;
+    drawn_ = {};
+}
+
 void Progress::update(std::int64_t done, std::string_view note) {
     if (quiet_) return;
     bool const last = done >= total_;

@@ -1,6 +1,7 @@
 #include <lore/experiment/run.h>
 
 #include "run_books.h"
+#include "run_cost.h"
 #include "run_setup.h"
 #include "stop_request.h"
 #include "time_report.h"
@@ -121,8 +122,9 @@ class Supervisor {
 public:
     /// `generation` is the last that is complete, or -1.
     Supervisor(RunBooks& books, EvolutionConfig const& evolution, RunOptions const& options, Stopwatch const& watch,
-               int generation)
+               int generation, int ranks)
         : books_(books), evolution_(evolution), options_(options), watch_(watch), generation_(generation),
+          forecast_(generation, evolution.generations, ranks, watch.total()),
           progress_(options.directory, evolution.generations, "generations", generations_a_line, options.quiet) {
         progress_.start_at(std::max(generation, 0));
     }
@@ -131,7 +133,9 @@ public:
     bool after_generation(GenerationReport const& report) {
         generation_ = report.generation;
         selection_seconds_ += report.selection_seconds;
-        progress_.update(generation_, describe(books_.add(report), books_.reward_unit(), evolution_.use_shaping));
+        GenerationSummary const& row = books_.add(report);
+        if (std::string const line = forecast_.after(generation_, watch_.total()); !line.empty()) progress_.tell(line);
+        progress_.update(generation_, describe(row, books_.reward_unit(), evolution_.use_shaping));
         if (generation_ == evolution_.generations) return true;
         stop_reason_ = stop_request();
         if (stop_reason_.empty() && options_.max_seconds && watch_.total() >= *options_.max_seconds)
@@ -153,6 +157,7 @@ private:
     int generation_;
     std::string stop_reason_;
     double selection_seconds_ = 0;
+    CostForecast forecast_;
     Progress progress_;
 };
 
@@ -182,8 +187,9 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::string const genome_path = run.setup.file(run_file::failed_genome);
     WorldRecord const world = run.setup.manifest.world;
     RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
-    Supervisor supervisor{books, evolution, options, watch,
-                          state.population.members.empty() ? -1 : state.population.generation};
+    Supervisor supervisor{
+        books,         evolution, options, watch, state.population.members.empty() ? -1 : state.population.generation,
+        session.size()};
     try {
         auto const observe = [&](GenerationReport const& report) { return supervisor.after_generation(report); };
         state = evolve(evolution, seed, farm.evaluator(), farm.distances(), std::move(state), observe, founders);
@@ -193,12 +199,14 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         throw told;
     }
 
-    std::vector<RankTimes> const rank_times = farm.stop();
+    std::vector<RankTimes> rank_times = farm.stop();
     std::string const& stop_reason = supervisor.stop_reason();
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
                 stop_reason.empty() ? "done" : stop_reason);
+    rank_times.front().processor = processor_seconds();
     if (!options.quiet)
-        write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}));
+        write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}) +
+                     cost_report(rank_times, books.session_steps(), watch.total()));
     return outcome(state, stop_reason, books.reward_unit());
 }
 

@@ -59,7 +59,7 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
     if (from) {
         former_seconds_ = from->seconds;
         row_.evaluations = from->evaluations;
-        row_.steps = from->steps;
+        row_.steps = former_steps_ = from->steps;
         last_checkpoint_generation_ = from->state.population.generation;
     }
     setup_.checkpoint.reset();   // its population would stay in memory for the whole run

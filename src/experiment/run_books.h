@@ -27,6 +27,8 @@ public:
     void close(EvolutionState const& state, RunStatus, std::string const& reason);
 
     double session_seconds() const;
+    /// Recorded in this session, as in progress.csv.
+    std::uint64_t session_steps() const { return row_.steps - former_steps_; }
     /// Spent on files so far [s].
     double filing_seconds() const { return filing_seconds_; }
     GenerationSummary const& last_row() const { return row_; }
@@ -38,6 +40,7 @@ private:
 
     RunSetup setup_;
     double former_seconds_ = 0;
+    std::uint64_t former_steps_ = 0;
     GenerationSummary row_;
     std::optional<ProgressWriter> progress_;
     std::optional<AllIndividualsWriter> all_;

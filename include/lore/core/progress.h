@@ -19,6 +19,8 @@ public:
 
     /// `done` steps are done in all; `note` follows the figures ("best 4 balls").
     void update(std::int64_t done, std::string_view note = "");
+    /// A line of its own; the bar goes on below it.
+    void tell(std::string_view line);
     /// The work began at `done` (after a resume), so that the time left is not reckoned from what others did.
     void start_at(std::int64_t done);
 

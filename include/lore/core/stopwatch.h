@@ -22,4 +22,7 @@ private:
     Clock::time_point lap_ = start_;
 };
 
+/// Processor time of this process since it began, and of its children that have ended, in user and kernel mode [s].
+double processor_seconds();
+
 }   // namespace lore

@@ -120,7 +120,10 @@ TEST(Farm, accounts_for_the_time_of_every_rank) {
     served.farm.evaluator().evaluate(pointers);
     auto const times = served.farm.stop();
     ASSERT_EQ(times.size(), static_cast<std::size_t>(session->size()));
-    for (RankTimes const& rank : times) EXPECT_GT(rank.evaluation, 0);
+    for (RankTimes const& rank : times) {
+        EXPECT_GT(rank.evaluation, 0);
+        EXPECT_GT(rank.processor, 0);
+    }
 }
 
 TEST(Communicator, gathers_texts_in_order_of_rank) {
