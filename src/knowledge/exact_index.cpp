@@ -45,10 +45,12 @@ using exact::Query;
 
 class ExactIndex : public FeatureIndex {
 public:
-    explicit ExactIndex(KnowledgeConfig const& config)
-        : channels_(config.channels), shape_(exact::shape_of(config)), masks_(exact::masks_of(shape_)),
-          limits_(exact::limits_of(shape_)), kernel_(exact::kernel_of(active_isa())), records_(shape_.words),
-          growing_(std::in_place, shape_.tables, masks_) {}
+    /// Empty, to be added to.
+    explicit ExactIndex(KnowledgeConfig const& config) : ExactIndex(config, nullptr) {
+        growing_.emplace(shape_.tables, masks_);
+    }
+    /// Final.
+    explicit ExactIndex(KnowledgeBase const&);
 
     void add(Window const& window) override;
     int size() const override { return static_cast<int>(records_.count()); }
@@ -65,20 +67,27 @@ public:
     bool ranked() const { return ranked_.has_value(); }
     /// Precondition: not final, or ranked.
     KeyedView keyed() const {
-        float const* const values = features_.values.data();
         return ranked_
-                   ? KeyedView{shape_, {}, ranked_->keys(), ranked_->numbers(), records_[0], values}
-                   : KeyedView{shape_, growing_->view(), growing_->keys(), growing_->numbers(), records_[0], values};
+                   ? KeyedView{shape_, {}, ranked_->keys(), ranked_->numbers(), records_[0], values()}
+                   : KeyedView{shape_, growing_->view(), growing_->keys(), growing_->numbers(), records_[0], values()};
     }
     std::size_t largest_bucket() const { return ranked_ ? records_.count() : growing_->largest_bucket(); }
     /// Precondition: ranked.
     std::int32_t const* ranks() const { return ranked_->numbers(); }
     /// Precondition: final and not ranked.
-    FixedView fixed() const {
-        return {shape_, fixed_->view(), fixed_->records(), features_.values.data(), limits_.data()};
-    }
+    FixedView fixed() const { return {shape_, fixed_->view(), fixed_->records(), values(), limits_.data()}; }
 
 private:
+    ExactIndex(KnowledgeConfig const& config, float const* base_values)
+        : channels_(config.channels), shape_(exact::shape_of(config)), masks_(exact::masks_of(shape_)),
+          limits_(exact::limits_of(shape_)), kernel_(exact::kernel_of(active_isa())), records_(shape_.words),
+          base_values_(base_values) {}
+
+    /// [feature][step][continuous channel]
+    float const* values() const { return base_values_ != nullptr ? base_values_ : features_.values.data(); }
+    /// Keeps the record of the next feature; returns its key.
+    Key add_record(Window const&);
+    void hash();
     void rank();
 
     Channels channels_;
@@ -90,20 +99,33 @@ private:
     std::optional<exact::GrowingTables> growing_;   ///< until the set is final
     std::optional<exact::FixedTables> fixed_;       ///< from then on, or
     std::optional<exact::RankedKeys> ranked_;
-    FeatureWindows features_;
+    float const* base_values_;   ///< of the base that it was made of, else null
+    FeatureWindows features_;    ///< those that were added
     std::vector<double> worth_;
 };
+
+ExactIndex::ExactIndex(KnowledgeBase const& base) : ExactIndex(base.config(), base.parts().windows.data()) {
+    records_.reserve(static_cast<std::size_t>(base.size()));
+    for (int feature = 0; feature < base.size(); ++feature) add_record(base.window(feature));
+    hash();
+    set_values(base.values());
+}
 
 void ExactIndex::add(Window const& window) {
     assert(window.bits.size() == static_cast<std::size_t>(shape_.window_length * shape_.step_words));
     assert(window.values.size() == static_cast<std::size_t>(shape_.window_length * shape_.continuous) && !final());
-    Digest digest{{}, size()};
     features_.add(channels_, window);
+    Key const key = add_record(window);
+    growing_->add(records_, key);
+}
+
+Key ExactIndex::add_record(Window const& window) {
+    Digest digest{{}, size()};
     std::uint64_t* const record = records_.add();
     kernel_.pack(shape_, window.bits.data(), record);
     Key const key = kernel_.summarize_with_key(shape_, record, window.values.data(), digest);
     std::memcpy(record + shape_.words, &digest, sizeof digest);
-    growing_->add(records_, key);
+    return key;
 }
 
 void ExactIndex::set_values(std::span<double const> values) {
@@ -111,11 +133,16 @@ void ExactIndex::set_values(std::span<double const> values) {
     worth_.assign(values.begin(), values.end());
     if (!final()) {
         growing_.reset();
-        if (shape_.hashes) fixed_.emplace(shape_.tables, masks_, records_);
-        bool const tells_apart = fixed_ && fixed_->usual_visits() <= static_cast<double>(records_.count());
-        if (!tells_apart) fixed_.reset();
+        hash();
     }
     if (!fixed_) rank();
+}
+
+/// Tables of the final set, unless they tell its features not apart.
+void ExactIndex::hash() {
+    if (shape_.hashes) fixed_.emplace(shape_.tables, masks_, records_);
+    bool const tells_apart = fixed_ && fixed_->usual_visits() <= static_cast<double>(records_.count());
+    if (!tells_apart) fixed_.reset();
 }
 
 void ExactIndex::rank() {
@@ -124,8 +151,7 @@ void ExactIndex::rank() {
     auto const floats = static_cast<std::size_t>(shape_.window_length * shape_.continuous);
     for (std::size_t feature = 0; feature < records_.count(); ++feature) {
         Digest unused;
-        keys.push_back(
-            kernel_.summarize_with_key(shape_, records_[feature], features_.values.data() + feature * floats, unused));
+        keys.push_back(kernel_.summarize_with_key(shape_, records_[feature], values() + feature * floats, unused));
     }
     ranked_.emplace(keys, worth_);
 }
@@ -269,6 +295,10 @@ std::unique_ptr<FeatureSearch> ExactIndex::search() const { return std::make_uni
 
 std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const& config) {
     return std::make_unique<ExactIndex>(config);
+}
+
+std::unique_ptr<FeatureIndex> make_final_exact_index(KnowledgeBase const& base) {
+    return std::make_unique<ExactIndex>(base);
 }
 
 }   // namespace lore

@@ -16,6 +16,7 @@ public:
     explicit Records(int words) : size_(static_cast<std::size_t>(record_size(words))) {}
     /// The next feature's, to be filled in.
     std::uint64_t* add();
+    void reserve(std::size_t features) { words_.reserve(features * size_); }
     std::uint64_t const* operator[](std::size_t feature) const { return words_.data() + feature * size_; }
     std::size_t count() const { return words_.size() / size_; }
     std::size_t record_words() const { return size_; }

@@ -90,4 +90,12 @@ std::unique_ptr<FeatureIndex> make_index(IndexChoice choice, KnowledgeConfig con
     return choice.kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config, 4, choice.checks);
 }
 
+std::unique_ptr<FeatureIndex> make_final_index(IndexChoice choice, KnowledgeBase const& base) {
+    if (choice.kind == IndexKind::exact) return make_final_exact_index(base);
+    auto index = make_index(choice, base.config());
+    for (int feature = 0; feature < base.size(); ++feature) index->add(base.window(feature));
+    index->set_values(base.values());
+    return index;
+}
+
 }   // namespace lore

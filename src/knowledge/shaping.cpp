@@ -41,9 +41,7 @@ struct Shaper::Reader::Loan {
 Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexChoice index)
     : state_(std::make_shared<State>(std::move(base), rule)) {
     KnowledgeBase const& kept = state_->base;
-    state_->index = make_index(index, kept.config());
-    for (int feature = 0; feature < kept.size(); ++feature) state_->index->add(kept.window(feature));
-    state_->index->set_values(kept.values());
+    state_->index = make_final_index(index, kept);
     for (double const value : kept.values()) {
         state_->highest = std::max(state_->highest, value);
         if (value <= state_->nothing_shown) state_->nothing_shown = value - 1;

@@ -87,5 +87,9 @@ std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const&);
 /// FLANN's KDTree forest with a fixed number of checks: approximate, and not repeatable from process to process.
 std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = usual_checks);
 std::unique_ptr<FeatureIndex> make_index(IndexChoice, KnowledgeConfig const&);
+/// A final set: answers as an index that was given the base's features one by one and then their values, and is made
+/// in less time and memory. Reads the base's windows where they are: the base must outlive it. Has none to release.
+std::unique_ptr<FeatureIndex> make_final_exact_index(KnowledgeBase const&);
+std::unique_ptr<FeatureIndex> make_final_index(IndexChoice, KnowledgeBase const&);
 
 }   // namespace lore

@@ -51,16 +51,32 @@ void expect_worth(FeatureSearch& search, std::span<double const> worth, Window c
     EXPECT_TRUE(search.may_match_above(window.bits, least) || !wanted);
 }
 
+/// An index that was made of a base at once, beside one that was added to and is final.
+void expect_equal_answers(KnowledgeBase const& base, FeatureSearch& added_to, std::span<Window const> asked) {
+    auto const at_once = make_final_exact_index(base);
+    EXPECT_EQ(at_once->size(), base.size());
+    auto const search = at_once->search();
+    for (Window const& window : asked) {
+        ASSERT_EQ(search->match(window), added_to.match(window));
+        for (double const least : {-1.0, 2.0, 4.0}) {
+            ASSERT_EQ(search->match_above(window, least), added_to.match_above(window, least));
+            ASSERT_EQ(search->may_match_above(window.bits, least), added_to.may_match_above(window.bits, least));
+        }
+    }
+}
+
 void expect_agreement(KnowledgeConfig const& config, std::uint32_t slot) {
     Asked const lives{config.channels, slot, 2, 20 * config.window_length + 50};
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     auto const scan_search = scan->search(), exact_search = exact->search();
     std::vector<Window> const known = all_windows(lives.known, config.window_length),
                               asked = all_windows(lives.asked, config.window_length);
+    FeatureWindows features;
     for (Window const& window : known) {   // while the set grows
         Match const expected = scan_search->match(window);
         ASSERT_EQ(exact_search->match(window), expected);
         if (expected.found()) continue;
+        features.add(config.channels, window);
         scan->add(window);
         exact->add(window);
     }
@@ -78,6 +94,9 @@ void expect_agreement(KnowledgeConfig const& config, std::uint32_t slot) {
             ASSERT_EQ(exact_search->match(asked[i]), expected[i]);
             expect_worth(*exact_search, worth, asked[i], expected[i], static_cast<double>(rng.below(6)) - 1);
         }
+    std::vector<std::uint32_t> const counts(worth.size(), 1);
+    expect_equal_answers(KnowledgeBase{config, {}, {features.bits, features.values, worth, worth, counts}},
+                         *exact_search, asked);
 }
 
 }   // namespace
