@@ -316,11 +316,14 @@ def main():
         work = pathlib.Path(folder)
         try:
             if given.what == "record":
-                record(place, programs, work)
+                if place.exists():
+                    raise Failure(f"{given.set} is there: what was released stays as it is")
+                record(work / place.name, programs, work)
+                shutil.move(work / place.name, place)   # whole, or not at all
                 print(f"made {given.set}: commit it with the release, and change it no more")
                 return 0
             gone = list(missing(place, programs, work))
-        except (Failure, FileExistsError) as failure:
+        except (Failure, ImportError) as failure:
             print(f"release: {failure}")
             return 1
     print("\n".join(gone) if gone else f"all that {place.name} promised is there")
