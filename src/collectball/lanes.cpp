@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace lore {
 
@@ -61,9 +62,7 @@ public:
             for (int l = 0; l < width_; ++l) {
                 LaneProgress& lane = progress[static_cast<std::size_t>(l)];
                 if (stop_when_still_ > 0 && lane.rows >= row && stood_still(l)) lane = {row, true};
-                if (lane.rows != row) continue;
-                read_world(l);
-                at(l).last = at(l).world;
+                if (lane.rows == row && row < rows) at(l).last = at(l).world;
             }
         }
     }
@@ -84,14 +83,15 @@ public:
     }
 
     void outcome(int lane, std::span<float> values) const override {
-        put_outcome(lanes_[static_cast<std::size_t>(lane)].last, values);
+        Lane const& now = lanes_[static_cast<std::size_t>(lane)];
+        put_outcome(now.last ? *now.last : now.world, values);
     }
 
 private:
     struct Lane {
         int still_steps = 0;
         WorldState world;
-        WorldState last;   ///< after the last row of the life in this chunk
+        std::optional<WorldState> last;   ///< after the last row of a life that ends before its chunk
     };
 
     Lane& at(int lane) { return lanes_[static_cast<std::size_t>(lane)]; }
