@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value, double scale) { return std::round(value * scale) / scale; }
+double to_nearest(double value, double scale) { return std::round(value * scale) / scale; }
 
 /// With 5 digits, as many as a picture can show.
 double shortened(double value) { return std::stod(fmt::format("{:.5g}", value)); }
@@ -21,16 +21,16 @@ double shortened(double value) { return std::stod(fmt::format("{:.5g}", value));
 std::vector<double> values_of(PanelValues const* panel) {
     std::vector<double> values;
     if (panel != nullptr)
-        for (double const value : panel->values) values.push_back(rounded(value, 1000));
+        for (double const value : panel->values) values.push_back(to_nearest(value, 1000));
     return values;
 }
 
 Json arena_replay_data(Replay const& replay, PanelValues const* panel) {
     std::vector<double> x, y, theta;
     for (std::size_t k = 0; k < replay.steps.size(); ++k) {
-        x.push_back(rounded(replay.steps[k].x, 10));
-        y.push_back(rounded(replay.steps[k].y, 10));
-        theta.push_back(rounded(replay.arena->steps[k].theta, 100));
+        x.push_back(to_nearest(replay.steps[k].x, 10));
+        y.push_back(to_nearest(replay.steps[k].y, 10));
+        theta.push_back(to_nearest(replay.arena->steps[k].theta, 100));
     }
     return {{"arena", Json::parse(page_arena(replay.arena->scene))},
             {"x", x},
