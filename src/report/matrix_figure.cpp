@@ -13,7 +13,7 @@ namespace lore {
 
 namespace {
 
-constexpr std::string_view ink = "#222222", soft = "#666666", empty = "#ececec", line = "#999999";
+constexpr std::string_view dark = "#222222", soft = "#666666", empty = "#ececec", line = "#999999";
 
 struct Rgb {
     double red, green, blue;
@@ -67,10 +67,10 @@ void draw_field(SvgDocument& svg, Grid const& grid, SvgPoint corner, MatrixField
         return;
     }
     auto const [difference, band, effect, p] = lines_of(field);
-    svg.text({middle, corner.y + 23}, difference, {.anchor = Anchor::middle, .size = 17, .color = ink, .bold = true});
-    svg.text({middle, corner.y + 39}, band, {.anchor = Anchor::middle, .size = 11, .color = ink});
-    svg.text({middle, corner.y + 56}, effect, {.anchor = Anchor::middle, .size = 11, .color = ink});
-    svg.text({middle, corner.y + 70}, p, {.anchor = Anchor::middle, .size = 11, .color = ink});
+    svg.text({middle, corner.y + 23}, difference, {.anchor = Anchor::middle, .size = 17, .color = dark, .bold = true});
+    svg.text({middle, corner.y + 39}, band, {.anchor = Anchor::middle, .size = 11, .color = dark});
+    svg.text({middle, corner.y + 56}, effect, {.anchor = Anchor::middle, .size = 11, .color = dark});
+    svg.text({middle, corner.y + 70}, p, {.anchor = Anchor::middle, .size = 11, .color = dark});
 }
 
 void draw_scale(SvgDocument& svg, SvgPoint corner) {
