@@ -62,6 +62,14 @@ void refuse_section(std::string const& label, std::string const& key, std::vecto
                      fmt::format("Write one of them, like --set {}.{}=...", key, keys.front()));
 }
 
+/// True of a value that TOML would want in quotes, and a shell not. What kind a world's settings are nobody knows.
+bool is_word(std::string_view value) {
+    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    auto const belongs = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    return !value.empty() && letter(value.front()) && std::all_of(value.begin(), value.end(), belongs) &&
+           value != "true" && value != "false" && value != "inf" && value != "nan";
+}
+
 /// "[section]\nkey = value" from "section.key=value".
 TomlTable document_of(std::string const& override, std::vector<Setting> const& settings) {
     std::string const label = "--set " + override;
@@ -71,7 +79,7 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
     std::string key = override.substr(0, equals);
     std::string value = override.substr(equals + 1);
     if (constexpr std::string_view table = "world.settings."; key.starts_with(table)) {
-        value = fmt::format("{{ {} = {} }}", key.substr(table.size()), value);
+        value = fmt::format("{{ {} = {} }}", key.substr(table.size()), is_word(value) ? "'" + value + "'" : value);
         key = table.substr(0, table.size() - 1);
     }
     auto const setting =
