@@ -105,8 +105,9 @@ TEST(Resume, after_stops_at_random_moments_on_other_ranks_and_instruction_sets_e
         if (reached && command.running()) command.signal(SIGUSR1);
         code = command.wait();
         ASSERT_TRUE(code == 0 || code == 75) << code << command.err();
-        if (code == 75) ++stops;
         last = signature(command);
+        if (launcher_is_mpich && last.empty()) code = 75;   // after a signal its launcher may say 0
+        if (code == 75) ++stops;
     }
     EXPECT_GT(stops, 2);
     EXPECT_EQ(last, straight.signature);
