@@ -19,7 +19,8 @@ namespace {
 
 constexpr char rule[] =
     "in the order of the campaign's file, the run not yet taken whose best-of-run is nearest to the "
-    "level wished; ties: the lowest seed; runs that the campaign names are taken first";
+    "level wished, or highest where most is wished; ties: the lowest seed; runs that the campaign names are "
+    "taken first";
 constexpr char most[] = "most";   ///< in place of a level, of a base with best_of
 
 ChosenRun chosen_from(KnowledgePlan const& knowledge, SourceRun const& run) {

@@ -39,7 +39,7 @@ void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, Cam
     if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
     for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
     if (kind.base_has_lineage && plan.knowledge_base(knowledge.base).kind != KnowledgeKind::lineage)
-        table.fail(kind.key, "it must name a knowledge base with 'balls', 'reward' or 'run'");
+        table.fail(kind.key, "it must name a knowledge base with 'balls', 'reward', 'run' or 'best_of'");
 }
 
 bool has_option(KnowledgePlan const& knowledge, std::string_view option) {

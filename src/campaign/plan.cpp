@@ -283,6 +283,18 @@ std::string CampaignPlan::config_path(Treatment const& treatment) const {
     return (std::filesystem::path{directory} / treatment.config).lexically_normal().string();
 }
 
+std::vector<std::string> all_treatments(CampaignPlan const& plan) {
+    std::vector<std::string> names = names_of(plan.sources);
+    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
+    return names;
+}
+
+int planned_runs(CampaignPlan const& plan) {
+    int planned = 0;
+    for (std::string const& name : all_treatments(plan)) planned += plan.treatment(name).runs;
+    return planned;
+}
+
 std::vector<TaskGroup> task_groups(CampaignPlan const& plan) {
     std::vector<TaskGroup> groups{{"", {}}};
     for (Treatment const& task : plan.tasks) groups.push_back({task.name, {}});

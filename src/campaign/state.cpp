@@ -94,12 +94,11 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     return say(StepStatus::missing, "");
 }
 
-/// Whether the outcome of a step that is no run is on disk; if not, `reason` may say why it is to be made again.
-bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step, std::string& reason) {
-    if (step.kind == StepKind::choose) {
-        auto const own = recorded_choice(directory, step.subject);
-        return own && own->covers(plan);
-    }
+/// Whether the outcome of a step that is no run is on disk, `choice` that of a step that chooses; if not, `reason` may
+/// say why it is to be made again.
+bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
+              std::optional<Choice> const& choice, std::string& reason) {
+    if (step.kind == StepKind::choose) return choice && choice->covers(plan);
     if (step.kind == StepKind::build) return fs::exists(directory.knowledge(step.subject));
     auto const due = replay_is_due(plan, directory, directory);
     if (due) reason = *due;
@@ -156,10 +155,11 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
         return state;
     }
     StepState state;
-    if (is_there(plan, directory, step, state.reason)) {
+    bool const chooses = step.kind == StepKind::choose;
+    auto const choice = chooses ? recorded_choice(directory, step.subject) : std::nullopt;
+    if (is_there(plan, directory, step, choice, state.reason)) {
         state.status = StepStatus::done;
-        if (step.kind == StepKind::choose) {
-            auto const choice = recorded_choice(directory, step.subject);
+        if (chooses) {
             std::vector<std::string> words;
             for (ChosenRun const& chosen : choice->chosen)
                 words.push_back(fmt::format("{} from run {} ({})", chosen.knowledge, chosen.run,

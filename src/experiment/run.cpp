@@ -187,9 +187,8 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::string const genome_path = run.setup.file(run_file::failed_genome);
     WorldRecord const world = run.setup.manifest.world;
     RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
-    Supervisor supervisor{
-        books,         evolution, options, watch, state.population.members.empty() ? -1 : state.population.generation,
-        session.size()};
+    int const reached = state.population.members.empty() ? -1 : state.population.generation;
+    Supervisor supervisor{books, evolution, options, watch, reached, session.size()};
     try {
         auto const observe = [&](GenerationReport const& report) { return supervisor.after_generation(report); };
         state = evolve(evolution, seed, farm.evaluator(), farm.distances(), std::move(state), observe, founders);
@@ -199,11 +198,10 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
         throw told;
     }
 
-    std::vector<RankTimes> rank_times = farm.stop();
+    std::vector<RankTimes> const rank_times = farm.stop();
     std::string const& stop_reason = supervisor.stop_reason();
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
                 stop_reason.empty() ? "done" : stop_reason);
-    rank_times.front().processor = processor_seconds();
     if (!options.quiet)
         write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}) +
                      cost_report(rank_times, books.session_steps(), watch.total()));

@@ -19,7 +19,10 @@ std::string short_time_text(double seconds) {
 }   // namespace
 
 std::string CostForecast::after(int generation, double now) {
-    if (generation == 0) first_ = 0, began_ = now;
+    if (generation == 0) {
+        first_ = 0;
+        began_ = now;
+    }
     double const elapsed = now - began_;
     if (told_ || generation == first_ || generation >= generations_ || elapsed < long_enough) return "";
     told_ = true;

@@ -158,14 +158,11 @@ std::string date_of(PackOptions const& options, CrateActions const& told) {
 
 std::string description_of(CampaignPlan const& plan, Inventory const& inventory, PackOptions const& options,
                            CrateActions const& told) {
-    int planned = 0;
-    for (Treatment const& source : plan.sources) planned += source.runs;
-    for (Treatment const& treatment : plan.targets) planned += treatment.runs;
     std::string text = options.description.empty() ? "" : options.description + " ";
     text += fmt::format("A campaign of Lore, evolution of robot controllers with knowledge from earlier runs: {} runs "
                         "planned, {} begun, {} finished; {} of {} knowledge bases made. Locks and temporary files are "
                         "not part of it.",
-                        planned, told.runs, told.finished, told.bases, plan.knowledge.size());
+                        planned_runs(plan), told.runs, told.finished, told.bases, plan.knowledge.size());
     for (PackPart const part : {PackPart::individuals, PackPart::checkpoints, PackPart::bases, PackPart::logs}) {
         std::size_t files = 0;
         std::uint64_t bytes = 0;

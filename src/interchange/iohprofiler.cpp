@@ -174,10 +174,7 @@ ExportCounts export_iohprofiler(CampaignPlan const& plan, CampaignDirectory cons
     NewDirectory folder{out};
     std::vector<Problem> problems;
     ExportCounts counts;
-    std::vector<std::string> names;
-    for (Treatment const& source : plan.sources) names.push_back(source.name);
-    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
-    for (std::string const& name : names) {
+    for (std::string const& name : all_treatments(plan)) {
         Treatment const& treatment = plan.treatment(name);
         std::vector<Run> const runs = finished_runs(plan, directory, treatment);
         if (runs.empty()) continue;

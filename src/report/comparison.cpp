@@ -1,6 +1,6 @@
 #include "comparison.h"
 
-#include "matrix.h"
+#include "findings.h"
 
 #include <lore/core/whole_number.h>
 #include <lore/statistics/holm.h>
@@ -155,8 +155,7 @@ std::string comparisons_csv(std::vector<Comparison> const& comparisons) {
     return text;
 }
 
-std::string summary_json(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
-                         std::vector<Comparison> const& planned) {
+std::string summary_json(CampaignPlan const& plan, Results const& results, Findings const& findings) {
     std::string const word{results.reward_word()};
     Json document;
     document["title"] = plan.title;
@@ -207,7 +206,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
     }
     document["complete"] = complete;
 
-    document["comparisons"] = json_of(comparisons);
+    document["comparisons"] = json_of(findings.comparisons);
     document["knowledge"] = Json::array();
     for (KnowledgeRow const& base : results.bases)
         document["knowledge"].push_back({{"knowledge", base.knowledge},
@@ -222,8 +221,8 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, std::
                                          {"greatest_value", base.greatest_value},
                                          {"at_greatest", base.at_greatest},
                                          {"shown_once", base.shown_once}});
-    add_pools(plan, results, planned, document);
-    add_matrix(transfer_matrix(plan, results), document);
+    add_pools(plan, results, findings.planned, document);
+    add_matrix(findings.matrix, document);
     if (results.leads.empty()) return document.dump(2) + "\n";
     document["leads"] = Json::array();
     for (LeadRow const& lead : results.leads)

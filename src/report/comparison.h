@@ -8,6 +8,8 @@
 
 namespace lore {
 
+struct Findings;
+
 /// Two treatments compared by their runs' rewards at the end: a row of pvalues.csv.
 struct Comparison {
     std::string a, b;
@@ -33,9 +35,7 @@ std::string pools_csv(std::vector<Comparison> const&);
 std::vector<double> rewards_of(CampaignPlan const&, Results const&, std::string_view name);
 
 /// summary.json: what each treatment reached and how they compare, for programs.
-/// `planned`: those of compare_pools.
-std::string summary_json(CampaignPlan const&, Results const&, std::vector<Comparison> const&,
-                         std::vector<Comparison> const& planned = {});
+std::string summary_json(CampaignPlan const&, Results const&, Findings const&);
 
 /// The paper's marks: "**" for p < 1e-3, "*" for p < 1e-2, else "".
 std::string_view significance_mark(double p);

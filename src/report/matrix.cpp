@@ -14,15 +14,12 @@ namespace lore {
 
 namespace {
 
-/// 0 if neither the runs nor the curves say it.
-int last_generation(Results const& results, std::string_view treatment) {
+/// At which a treatment's runs have their final rewards.
+int generation_of(Results const& results, std::string_view treatment) {
     int last = 0;
     for (RunRow const& run : results.runs)
         if (run.treatment == treatment) last = std::max(last, run.generations);
-    if (last > 0) return last;
-    for (CurveRow const& row : results.curves)
-        if (row.treatment == treatment) last = std::max(last, row.generation);
-    return last;
+    return last > 0 ? last : results.last_generation(treatment);   // final.csv alone does not say it
 }
 
 MatrixField field_of(TransferPair const& pair, Results const& results) {
@@ -38,7 +35,7 @@ MatrixField field_of(TransferPair const& pair, Results const& results) {
         return field;
     }
     field.unit = results.unit_of(pair.none).value_or("");
-    field.generation = last_generation(results, pair.none);
+    field.generation = generation_of(results, pair.none);
     field.n = static_cast<int>(helped.size());
     field.n_none = static_cast<int>(none.size());
     field.mean = mean(helped);

@@ -3,10 +3,8 @@
 #include "panels.h"
 #include "html.h"
 #include "page_parts.h"
-#include "matrix.h"
 #include "report_assets.h"
 #include "reward_words.h"
-#include "task_parts.h"
 
 #include <lore/campaign/choice.h>
 #include <lore/experiment/version.h>
@@ -60,14 +58,7 @@ std::string figure(Figures const& figures, std::string const& name, Places const
 
 /// Of the rewards on all target tasks.
 RewardWords words_of(CampaignPlan const& plan, Results const& results) {
-    if (!results.has_several_units(plan)) return reward_words(results.reward_unit(plan));
-    return {"unit of reward",
-            "reward",
-            "reward",
-            "reward",
-            "so much reward",
-            "gets more reward",
-            "whose reward may be another"};
+    return results.has_several_units(plan) ? words_of_any_reward() : reward_words(results.reward_unit(plan));
 }
 
 /// Figures 3 and 4, of each target task.
@@ -86,9 +77,8 @@ std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
     return text;
 }
 
-std::string matrix(CampaignPlan const& plan, Results const& results, Figures const& figures) {
-    if (plan.transfer.empty()) return "";
-    auto const fields = transfer_matrix(plan, results);
+std::string matrix(CampaignPlan const& plan, std::vector<MatrixField> const& fields, Figures const& figures) {
+    if (fields.empty()) return "";
     auto const shown =
         std::count_if(fields.begin(), fields.end(), [](MatrixField const& field) { return field.why.empty(); });
     Places const caption{{"fields", std::to_string(shown)},
@@ -176,31 +166,17 @@ std::string versions(Results const& results) {
     return versions.empty() ? "of unknown version" : fmt::format("{}", fmt::join(versions, ", "));
 }
 
-std::size_t planned_runs(CampaignPlan const& plan) {
-    std::size_t planned = 0;
-    for (Treatment const& source : plan.sources) planned += static_cast<std::size_t>(source.runs);
-    for (Treatment const& target : plan.targets) planned += static_cast<std::size_t>(target.runs);
-    return planned;
-}
-
 /// Whether the replays show worlds by their scenes, rather than arenas.
 bool shows_worlds(Results const& results) {
     return results.replays.empty() ? results.reward_word() != first_reward_unit : !all_in_arenas(results.replays);
 }
 
-int last_generation(Results const& results) {
-    int last = 0;
-    for (CurveRow const& row : results.curves) last = std::max(last, row.generation);
-    return last;
-}
-
 }   // namespace
 
-std::string report_page(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons,
-                        std::vector<Comparison> const& planned, Figures const& figures) {
+std::string report_page(CampaignPlan const& plan, Results const& results, Findings const& findings,
+                        Figures const& figures) {
     RewardWords const words = words_of(plan, results);
-    std::vector<TaskPart> const parts = task_parts(plan, results, comparisons);
-    std::size_t const runs = planned_runs(plan);
+    auto const runs = static_cast<std::size_t>(planned_runs(plan));
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
@@ -212,16 +188,16 @@ std::string report_page(CampaignPlan const& plan, Results const& results, std::v
          {"js", std::string{report_js} + std::string{shows_worlds(results) ? world_replay_js : arena_replay_js}},
          {"finished", std::to_string(results.runs.size())},
          {"planned", std::to_string(runs)},
-         {"generation", std::to_string(last_generation(results))},
+         {"generation", std::to_string(results.last_generation())},
          {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
          {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
-         {"matrix", matrix(plan, results, figures)},
+         {"matrix", matrix(plan, findings.matrix, figures)},
          {"collected", escaped(capital(words.collected))},
          {"treatments", treatments_table(plan, results)},
-         {"curves", curves(parts, figures)},
-         {"speed", speeds(plan, results, parts)},
-         {"pools", pools(plan, results, planned)},
-         {"significance", significance(plan, results, comparisons)},
+         {"curves", curves(findings.parts, figures)},
+         {"speed", speeds(plan, results, findings.parts)},
+         {"pools", pools(plan, results, findings.planned)},
+         {"significance", significance(plan, results, findings.comparisons)},
          {"bases", bases(plan, results)},
          {"figure5", figure(figures, "figure5",
                             {{"run", trajectory}, {"not_found", shows_worlds(results) ? "" : " (-1: not found)"}})},

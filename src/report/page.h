@@ -1,6 +1,6 @@
 #pragma once
 
-#include "comparison.h"
+#include "findings.h"
 #include "results.h"
 
 #include <map>
@@ -15,8 +15,7 @@ using Figures = std::map<std::string, std::string>;
 /// What the campaign's file asks for and these results cannot show, and what to do; "" if they show all.
 std::string what_is_missing(CampaignPlan const&, Results const&);
 
-/// report.html: self-contained, opens offline. `planned`: those of compare_pools.
-std::string report_page(CampaignPlan const&, Results const&, std::vector<Comparison> const&,
-                        std::vector<Comparison> const& planned, Figures const&);
+/// report.html: self-contained, opens offline.
+std::string report_page(CampaignPlan const&, Results const&, Findings const&, Figures const&);
 
 }   // namespace lore

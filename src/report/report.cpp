@@ -1,10 +1,8 @@
 #include <lore/report/report.h>
 
 #include "chart.h"
-#include "matrix.h"
 #include "page.h"
 #include "panels.h"
-#include "task_parts.h"
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
@@ -60,13 +58,13 @@ void write_text(CampaignDirectory const& into, std::string_view name, std::strin
     write_file_atomically(into.file(name), std::string_view{text});
 }
 
-Figures draw_figures(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
+Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings const& findings) {
     Figures figures;
-    for (TaskPart const& part : task_parts(plan, results, comparisons)) {
+    for (TaskPart const& part : findings.parts) {
         figures[part.figure("figure3")] = draw_curves(part.plan, part.results);
         figures[part.figure("figure4")] = draw_boxplots(part.plan, part.results, part.comparisons);
     }
-    if (!plan.transfer.empty()) figures["matrix"] = draw_matrix(plan, transfer_matrix(plan, results));
+    if (!findings.matrix.empty()) figures["matrix"] = draw_matrix(plan, findings.matrix);
     for (std::string const figure : {"figure5", "figure6"})
         if (auto svg = draw_panels(plan, results, figure); !svg.empty()) figures[figure] = std::move(svg);
     return figures;
@@ -74,13 +72,13 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, std::vect
 
 void write_figures(CampaignDirectory const& into, Figures const& figures) {
     // Figures of a former report that this one does not have would pass for its own.
+    std::vector<std::filesystem::path> former;
+    for (auto const& entry : std::filesystem::directory_iterator{into.file("figures")}) {
+        std::string const name = entry.path().stem().string();
+        if ((name.starts_with("figure") || name == "matrix") && !figures.contains(name)) former.push_back(entry.path());
+    }
     std::error_code ignored;
-    for (std::string const figure : {"figure3", "figure4", "figure5", "figure6", "matrix"})
-        for (std::string const kind : {"svg", "png"})
-            if (!figures.contains(figure)) {
-                std::error_code ignored;   // it may not be there
-                std::filesystem::remove(into.file(fmt::format("figures/{}.{}", figure, kind)), ignored);
-            }
+    for (std::filesystem::path const& file : former) std::filesystem::remove(file, ignored);
     for (auto const& [name, svg] : figures) {
         write_text(into, fmt::format("figures/{}.svg", name), svg);
         write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
@@ -95,9 +93,9 @@ void write_pools(CampaignPlan const& plan, CampaignDirectory const& into, std::v
 }
 
 /// Likewise.
-void write_matrix(CampaignPlan const& plan, CampaignDirectory const& into, Results const& results) {
+void write_matrix(CampaignDirectory const& into, std::vector<MatrixField> const& fields) {
     std::error_code ignored;   // it may not be there
-    if (!plan.transfer.empty()) write_text(into, "matrix.csv", matrix_csv(transfer_matrix(plan, results)));
+    if (!fields.empty()) write_text(into, "matrix.csv", matrix_csv(fields));
     else std::filesystem::remove(into.file("matrix.csv"), ignored);
 }
 
@@ -122,15 +120,14 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
     CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
     check_names(plan, results);
     check_pools(plan, results);
-    auto const comparisons = compare_treatments(plan, results);
-    Figures const figures = draw_figures(plan, results, comparisons);
-    write_text(into, "pvalues.csv", comparisons_csv(comparisons));
-    auto const planned = compare_pools(plan, results);
-    write_pools(plan, into, planned);
-    write_matrix(plan, into, results);
-    write_text(into, "summary.json", summary_json(plan, results, comparisons, planned));
+    Findings const findings = findings_of(plan, results);
+    Figures const figures = draw_figures(plan, results, findings);
+    write_text(into, "pvalues.csv", comparisons_csv(findings.comparisons));
+    write_pools(plan, into, findings.planned);
+    write_matrix(into, findings.matrix);
+    write_text(into, "summary.json", summary_json(plan, results, findings));
     write_figures(into, figures);
-    write_text(into, "report.html", report_page(plan, results, comparisons, planned, figures));
+    write_text(into, "report.html", report_page(plan, results, findings, figures));
     return what_is_missing(plan, results);
 }
 

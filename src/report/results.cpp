@@ -198,13 +198,6 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
 
 }   // namespace
 
-std::vector<std::string> all_treatments(CampaignPlan const& plan) {
-    std::vector<std::string> names;
-    for (Treatment const& source : plan.sources) names.push_back(source.name);
-    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
-    return names;
-}
-
 KnowledgePlan const& origin_of(CampaignPlan const& plan, KnowledgePlan const& knowledge) {
     return knowledge.base.empty() ? knowledge : origin_of(plan, plan.knowledge_base(knowledge.base));
 }
@@ -214,6 +207,13 @@ std::vector<double> Results::final_rewards(std::string_view treatment) const {
     for (RunRow const& run : runs)
         if (run.treatment == treatment) rewards.push_back(run.reward);
     return rewards;
+}
+
+int Results::last_generation(std::string_view treatment) const {
+    int last = 0;
+    for (CurveRow const& row : curves)
+        if (treatment.empty() || row.treatment == treatment) last = std::max(last, row.generation);
+    return last;
 }
 
 std::optional<std::string> Results::unit_of(std::string_view treatment) const {

@@ -84,6 +84,8 @@ struct Results {
     std::vector<FieldName> misfits;   ///< as matrix.csv of a former report has them
 
     std::vector<double> final_rewards(std::string_view treatment) const;
+    /// Of the curves of that treatment, or of all if none is named; 0 without curves.
+    int last_generation(std::string_view treatment = "") const;
     /// The unit of that treatment's runs; nothing if it has none.
     std::optional<std::string> unit_of(std::string_view treatment) const;
     /// The unit of the first target task's rewards; of the source task's as long as there is no target run.
@@ -99,9 +101,6 @@ struct Results {
 /// Gathers the finished runs and knowledge bases of a campaign from its directory; replays and panels stay empty.
 /// Throws Error for a damaged file.
 Results collect_results(CampaignPlan const&, CampaignDirectory const&);
-
-/// The source tasks' names, then those of the target treatments in the report's order.
-std::vector<std::string> all_treatments(CampaignPlan const&);
 
 /// The knowledge base from a lineage that this one goes back to.
 KnowledgePlan const& origin_of(CampaignPlan const&, KnowledgePlan const&);

@@ -16,11 +16,17 @@ RewardWords reward_words(std::string_view unit) {
                 "so many " + noun,
                 "collects more " + noun,
                 fmt::format("where other {} count", noun)};
-    std::string const with_unit = fmt::format("reward [{}]", unit);
-    return {std::string{unit},
-            noun,
-            with_unit,
-            with_unit,
+    RewardWords words = words_of_any_reward();
+    words.unit = unit;
+    words.collected = words.number_of = fmt::format("reward [{}]", unit);
+    return words;
+}
+
+RewardWords words_of_any_reward() {
+    return {"unit of reward",
+            "reward",
+            "reward",
+            "reward",
             "so much reward",
             "gets more reward",
             "whose reward may be another"};

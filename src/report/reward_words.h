@@ -16,6 +16,8 @@ struct RewardWords {
     std::string source;      ///< of the source task: "where other balls count"; "whose reward may be another"
 };
 RewardWords reward_words(std::string_view unit);
+/// Of several target tasks, whose rewards have different units.
+RewardWords words_of_any_reward();
 
 /// With a capital letter.
 std::string capital(std::string text);

@@ -23,14 +23,6 @@ constexpr std::size_t most_failures = 50;   ///< shown with their logs
 
 bool is_run(Step const& step) { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
 
-/// The source tasks first.
-std::vector<std::string> names_in_order(CampaignPlan const& plan) {
-    std::vector<std::string> names;
-    for (Treatment const& source : plan.sources) names.push_back(source.name);
-    names.insert(names.end(), plan.report_order.begin(), plan.report_order.end());
-    return names;
-}
-
 TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory const& directory,
                                std::vector<StepWithState> const& steps, ProgressMemory& progress) {
     TreatmentFacts facts;
@@ -151,7 +143,7 @@ struct CampaignWatcher::Memory {
         if (!fs::is_directory(directory.path()))
             now.notice = fmt::format("Waiting for {}: 'lore-campaign run' makes it.", directory.path());
         now.steps = states_of(plan, directory);
-        for (std::string const& name : names_in_order(plan)) {
+        for (std::string const& name : all_treatments(plan)) {
             now.treatments.push_back(treatment_facts(plan.treatment(name), directory, now.steps, progress));
             now.treatments.back().is_source = plan.is_source(name);
         }

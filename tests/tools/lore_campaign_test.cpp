@@ -116,7 +116,10 @@ TEST_F(LoreCampaignTest, makes_the_matrix_of_transfer_between_tasks_of_two_world
     expect_done("run c.toml --dir c --jobs 1 -q");
     // 4 source runs, 2 choices, 4 bases, 8 target runs, the replay.
     EXPECT_THAT(run("status -q c.toml --dir c").output, HasSubstr("19 done"));
+    write("c/figures/figure3_gone.svg", "of a task that the campaign had before");
     expect_done("report c.toml --dir c -q");
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure3_gone.svg")));
+    EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3_pole.svg")));
     std::string const matrix = content("c/matrix.csv");
     EXPECT_THAT(matrix, HasSubstr("\nballs,balls,balls_from_balls,balls_from_none,balls,4,2,2,"));
     EXPECT_THAT(matrix, HasSubstr("\npole,pole,pole_from_pole,pole_from_none,"));

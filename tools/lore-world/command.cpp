@@ -20,6 +20,7 @@ WorldRequest request_for(WorldOptions const& options) {
     WorldRequest request;
     if (!options.config.empty()) {
         request = read_config(options.config).world;
+        // Of a configuration that names no world, which then is to be named here.
         if (request.folder.empty()) request.folder = std::filesystem::path{options.config}.parent_path().string();
     }
     if (!options.world.empty()) {

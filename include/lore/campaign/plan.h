@@ -118,6 +118,11 @@ struct CampaignPlan {
 /// The base by Algorithm 1 that a base is, or was derived from: its features and its evidence.
 KnowledgePlan const& built_base(CampaignPlan const&, KnowledgePlan const&);
 
+/// Names of the source tasks' treatments, then of the target treatments in the report's order.
+std::vector<std::string> all_treatments(CampaignPlan const&);
+/// Runs of all of them.
+int planned_runs(CampaignPlan const&);
+
 /// Target treatments whose rewards can be compared, in the report's order.
 struct TaskGroup {
     std::string task;   ///< name of their target task; empty where the file names none

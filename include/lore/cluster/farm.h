@@ -31,7 +31,7 @@ struct RankTimes {
     double evaluation = 0;
     double distances = 0;   ///< on rank 0 with the listener's time while other ranks evaluate
     double waiting = 0;     ///< polling for messages; on rank 0 only while a request is under way
-    double processor = 0;   ///< processor_seconds() at the end
+    double processor = 0;   ///< processor_seconds() as the farm stops
 };
 
 /// The ranks of a communicator, at work for rank 0. The others are in serve() with an equal context.

@@ -4,7 +4,6 @@
 #include <lore/episode/lane_rules.h>
 #include <lore/episode/lane_run.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>

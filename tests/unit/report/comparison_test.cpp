@@ -1,4 +1,5 @@
 #include "comparison.h"
+#include "findings.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -94,7 +95,7 @@ TEST(Comparison, gives_the_papers_marks) {
 TEST(Summary, says_how_complete_the_campaign_is) {
     CampaignPlan const plan = three_treatments();
     Results const results = results_with({{"a", {1, 2, 3}}, {"b", {4, 5}}});
-    auto const document = nlohmann::json::parse(summary_json(plan, results, compare_treatments(plan, results)));
+    auto const document = nlohmann::json::parse(summary_json(plan, results, findings_of(plan, results)));
     EXPECT_EQ(document["complete"], false);
     EXPECT_EQ(document["treatments"][1]["mean"], 2.0);
     EXPECT_EQ(document["treatments"][2]["runs"], 2);
