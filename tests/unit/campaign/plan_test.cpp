@@ -92,9 +92,9 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
               std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "all_of = \"kb11\"").find("Did you mean 'kb1'"), std::string::npos);
     EXPECT_NE(complaint("all_of = \"kb1\"", "lineage_of = \"kb1_all\"").find("no 'kb1_all' before"), std::string::npos);
-    EXPECT_NE(
-        complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"").find("with 'balls', 'reward', 'run' or 'best_of'"),
-        std::string::npos);
+    EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"")
+                  .find("with 'balls', 'reward', 'run' or 'best_of'"),
+              std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
     EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);
