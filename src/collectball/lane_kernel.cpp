@@ -31,14 +31,16 @@ constexpr int rays = 3;
 LORE_INLINE F ones_where(I const& mask) { return lanes::select(mask, lanes::all_of<F>(1.0f), F{}); }
 
 /// Three rays against the faces of one line; what mechanics::hit_vertical and hit_horizontal say, arranged for speed:
-/// a comparison costs AVX-512 twice what an addition does, so conditions are joined as numbers that must not be
-/// positive, by max for "and", by min for "or". Distances are kept negative, which saves a sign.
+/// a comparison costs AVX-512 twice what an addition does, so conditions are sign bits, of differences that are
+/// negative where the ray passes beside the interval. Distances are kept negative: then the sign of t, too, says
+/// whether the face lies ahead. (t is not 0, since the center of a robot never lies on a face.)
 template <bool along_x>
 LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const& across, F const& along, I const& shut,
                           mechanics::Ray<F> const (&way)[rays], F (&nearest)[rays]) {
     F const up = across - line.upward, down = across - line.downward;
-    F t[rays], reach[rays], miss[rays];   // t and reach negative
-    for (F& least : miss) least = lanes::all_of<F>(__builtin_inff());
+    F t[rays], reach[rays];   // negative
+    I beside[rays];           // negative: beside all intervals
+    for (I& sign : beside) sign = lanes::all_of<I>(-1);
     for (int r = 0; r < rays; ++r) {
         F const& direction = along_x ? way[r].direction.y : way[r].direction.x;
         F const& reciprocal = along_x ? way[r].reciprocal.y : way[r].reciprocal.x;
@@ -47,14 +49,18 @@ LORE_INLINE void hit_line(LaneArena const& arena, FaceLine const& line, F const&
     }
     for (int i = line.first; i < line.last; ++i) {
         FaceInterval const& interval = arena.intervals[i];
-        F lo = interval.lo - along;
-        F const hi = along - interval.hi;
+        F lo = along - interval.lo;
+        F const hi = interval.hi - along;
         // An open door begins at infinity.
-        if (interval.door) lo = lanes::select(shut, lo, lanes::all_of<F>(__builtin_inff()));
-        for (int r = 0; r < rays; ++r) miss[r] = lanes::min(miss[r], lanes::max(F(lo + reach[r]), F(hi - reach[r])));
+        if (interval.door) lo = lanes::select(shut, lo, lanes::all_of<F>(-__builtin_inff()));
+        for (int r = 0; r < rays; ++r)
+            beside[r] = lanes::and_either(beside[r], lanes::cast_bits<I>(F(lo - reach[r])),
+                                          lanes::cast_bits<I>(F(hi + reach[r])));
     }
-    for (int r = 0; r < rays; ++r)
-        nearest[r] = lanes::select(lanes::max(t[r], miss[r]) <= 0.0f, lanes::max(t[r], nearest[r]), nearest[r]);
+    for (int r = 0; r < rays; ++r) {
+        I const hit = ~beside[r] & lanes::cast_bits<I>(t[r]);
+        nearest[r] = lanes::select_negative(hit, lanes::max(t[r], nearest[r]), nearest[r]);
+    }
 }
 
 /// Distances along the three rays (right, left, ahead).
@@ -158,9 +164,11 @@ LORE_INLINE Contact touch_walls(LaneArena const& arena, WallSet touchable, F con
             I touched = mechanics::touches(wall, x, y, arena.radius_squared);
             if (i >= arena.first_door) touched &= ~open;
             first.take(touched & ~contact.any, wall);
-            second.take(touched & contact.any & ~again, wall);
-            more |= touched & again;
-            again |= touched & contact.any;
+            if (I const further = touched & contact.any; lanes::any(further)) {
+                second.take(further & ~again, wall);
+                more |= further & again;
+                again |= further;
+            }
             contact.any |= touched;
         });
     if (!lanes::any(contact.any)) return contact;

@@ -80,6 +80,29 @@ LORE_INLINE V select(M const& mask, V const& a, V const& b) {
     return mask ? a : b;
 }
 
+/// sign < 0 ? a : b, lane by lane: asks the sign bit alone.
+template <class I, class V>
+LORE_INLINE V select_negative(I const& sign, V const& a, V const& b) {
+#if defined(__AVX512DQ__)
+    if constexpr (std::is_same_v<V, Lanes<float, 16>>)
+        return (V)_mm512_mask_mov_ps((__m512)b, _mm512_movepi32_mask((__m512i)sign), (__m512)a);
+#endif
+#if defined(__AVX__)
+    if constexpr (std::is_same_v<V, Lanes<float, 8>>) return (V)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)sign);
+#endif
+    return sign < 0 ? a : b;
+}
+
+/// a & (b | c); one instruction of AVX-512, which g++ 12 does not find by itself.
+template <class I>
+LORE_INLINE I and_either(I const& a, I const& b, I const& c) {
+#if defined(__AVX512F__)
+    if constexpr (std::is_same_v<I, Lanes<std::int32_t, 16>>)
+        return (I)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b, (__m512i)c, 0xe0);
+#endif
+    return a & (b | c);
+}
+
 /// a < b ? a : b; b where either is NaN.
 template <class V>
 LORE_INLINE V min(V const& a, V const& b) {

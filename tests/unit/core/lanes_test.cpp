@@ -59,6 +59,27 @@ TYPED_TEST(LanesTest, ors_its_integers_together) {
     EXPECT_EQ(lanes::reduce_or(bits), expected);
 }
 
+TYPED_TEST(LanesTest, selects_by_the_sign_bit) {
+    using V = TypeParam;
+    constexpr int width = LaneTraits<V>::width;
+    IntOf<V> sign{};
+    V a{}, b{};
+    for (int i = 0; i < width; ++i) {
+        sign[i] = i % 3 == 0 ? -1 - i : i % 3 == 1 ? 0 : 0x7fffffff;
+        a[i] = 1.0f + static_cast<float>(i);
+        b[i] = -0.5f;
+    }
+    V const chosen = lanes::select_negative(sign, a, b);
+    for (int i = 0; i < width; ++i) EXPECT_EQ(chosen[i], i % 3 == 0 ? 1.0f + static_cast<float>(i) : -0.5f);
+}
+
+TYPED_TEST(LanesTest, joins_bits_that_are_in_the_first_and_in_either_other) {
+    using V = TypeParam;
+    auto const all = [](std::int32_t bits) { return lanes::all_of<IntOf<V>>(bits); };
+    IntOf<V> const joined = lanes::and_either(all(0b11110000), all(0b11001100), all(0b10101010));
+    for (int i = 0; i < LaneTraits<V>::width; ++i) EXPECT_EQ(joined[i], 0b11100000);
+}
+
 TYPED_TEST(LanesTest, gathers_from_a_table) {
     using V = TypeParam;
     constexpr int width = LaneTraits<V>::width;
