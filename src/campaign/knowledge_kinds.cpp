@@ -89,7 +89,8 @@ void read_reduction(TomlTable const& table, KnowledgePlan& plan) {
         plan.options.insert(plan.options.begin(), {std::string{option}, fmt::format("{}", bound)});
     };
     if (how == "top") reduce_by("--top", *table.integer(how, 1, 100'000'000));
-    if (how == "least_value") reduce_by("--min-value", *table.number(how, -1, 1e6));
+    using Real = std::numeric_limits<double>;
+    if (how == "least_value") reduce_by("--min-value", *table.number(how, Real::lowest(), Real::max()));
     if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
     if (how == "consensus") plan.consensus = *table.strings("consensus");
 }

@@ -40,9 +40,15 @@ std::string ranges(std::vector<int> const& numbers) {
     return fmt::format("{}", fmt::join(parts, ","));
 }
 
-std::string flat(std::string text) {
-    std::replace(text.begin(), text.end(), '/', '-');
-    return text;
+/// As sbatch reads it within quotes: every % as itself.
+std::string as_pattern(std::string const& path) {
+    std::string pattern;
+    for (char const c : path) {
+        if (c == '%') pattern += '%';
+        if (c == '"' || c == '\\') pattern += '\\';
+        pattern += c;
+    }
+    return pattern;
 }
 
 /// Runs a command and returns what it printed; stderr comes along where it fails.
@@ -92,15 +98,15 @@ std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directo
                       std::string const& program, BatchJob const& job) {
     std::string text = "#!/usr/bin/env bash\n";
     auto option = [&](std::string const& words) { text += fmt::format("#SBATCH {}\n", words); };
-    option(fmt::format("--job-name=lore-{}", flat(job.group)));
+    option(fmt::format("--job-name=lore-{}", flat_name(job.group)));
     if (!job.tasks.empty()) option(fmt::format("--array={}%{}", ranges(job.tasks), plan.cluster.concurrent));
     option(fmt::format("--ntasks={}", launcher.ranks));
     option(fmt::format("--time={}", plan.cluster.time_limit));
     option(fmt::format("--signal=B:USR1@{}", plan.cluster.warning_seconds));
     option("--requeue");
     option("--open-mode=append");
-    option(fmt::format("--output={}", directory.file(fmt::format("logs/slurm-{}{}.out", flat(job.group),
-                                                                 job.tasks.empty() ? "" : "-%a"))));
+    std::string const log = as_pattern(directory.file(fmt::format("logs/slurm-{}", flat_name(job.group))));
+    option(fmt::format("--output=\"{}{}.out\"", log, job.tasks.empty() ? "" : "-%a"));
     for (std::string const& words : plan.cluster.options) option(words);
     text += "\n";
 
@@ -154,7 +160,7 @@ std::vector<BatchJob> batch_jobs(CampaignPlan const& given, CampaignDirectory co
     for (BatchJob const& job : jobs) report.after_any.push_back(job.group);
     jobs.push_back(std::move(report));
     for (BatchJob& job : jobs) {
-        job.script = directory.file(fmt::format("slurm/{}.sbatch", flat(job.group)));
+        job.script = directory.file(fmt::format("slurm/{}.sbatch", flat_name(job.group)));
         job.text = script_of(plan, directory, launcher, program, job);
     }
     return jobs;

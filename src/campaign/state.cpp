@@ -1,5 +1,7 @@
 #include <lore/campaign/state.h>
 
+#include "treatment_inputs.h"
+
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/file_lock.h>
 #include <lore/campaign/choice.h>
@@ -84,6 +86,8 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
         if (auto const others = other_settings(plan, treatment, run); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
+        if (auto const others = other_inputs(plan, treatment, planned.founders_from, *manifest); !others.empty())
+            return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
         if (!fs::exists(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
         return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));

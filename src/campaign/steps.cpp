@@ -16,13 +16,6 @@ namespace lore {
 
 namespace {
 
-/// '/' separates directories in a step's name, and must not in a file's.
-std::string flat(std::string_view step) {
-    std::string name{step};
-    std::replace(name.begin(), name.end(), '/', '-');
-    return name;
-}
-
 std::string program(Launcher const& launcher, std::string_view name) {
     return launcher.programs.empty() ? std::string{name} : (std::filesystem::path{launcher.programs} / name).string();
 }
@@ -100,6 +93,12 @@ void add_replay(CampaignPlan const& plan, std::vector<Step>& steps) {
 
 }   // namespace
 
+std::string flat_name(std::string_view step) {
+    std::string name{step};
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name;
+}
+
 std::string choose_step(std::string_view source) {
     return source == "source" ? "choose" : fmt::format("choose/{}", source);
 }
@@ -122,12 +121,14 @@ std::string CampaignDirectory::knowledge(std::string_view name) const {
 std::string CampaignDirectory::choice(std::string_view source) const {
     return file(source == "source" ? "knowledge/choice.json" : fmt::format("knowledge/choice-{}.json", source));
 }
-std::string CampaignDirectory::log(std::string_view step) const { return file(fmt::format("logs/{}.log", flat(step))); }
+std::string CampaignDirectory::log(std::string_view step) const {
+    return file(fmt::format("logs/{}.log", flat_name(step)));
+}
 std::string CampaignDirectory::lock(std::string_view step) const {
-    return file(fmt::format("steps/{}.lock", flat(step)));
+    return file(fmt::format("steps/{}.lock", flat_name(step)));
 }
 std::string CampaignDirectory::record(std::string_view step) const {
-    return file(fmt::format("steps/{}.json", flat(step)));
+    return file(fmt::format("steps/{}.json", flat_name(step)));
 }
 
 std::vector<Step> steps_of(CampaignPlan const& plan) {

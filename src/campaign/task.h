@@ -42,7 +42,7 @@ struct Task {
     std::optional<FileLock> lock;
     std::optional<LauncherWatch> watch;   ///< of a run of several ranks
 
-    bool is_run() const { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
+    bool is_run() const { return lore::is_run(step); }
 };
 
 inline int count(std::vector<Task> const& tasks, Phase phase) {

@@ -52,6 +52,31 @@ std::vector<std::optional<Channels>> channels_of(std::vector<Treatment> const& t
     return all;
 }
 
+/// Whether the seeds and all settings but the generations are such that runs of the two are partly the same runs.
+bool repeat_each_other(CampaignPlan const& plan, Treatment const& a, Treatment const& b) {
+    bool const apart =
+        seed_of(a, a.runs) < seed_of(b, 1) || seed_of(b, b.runs) < seed_of(a, 1) || a.runs == 0 || b.runs == 0;
+    if (apart || plan.config_path(a) != plan.config_path(b)) return false;
+    ExperimentConfig const of_a = read_config(plan.config_path(a), a.overrides);
+    ExperimentConfig of_b = read_config(plan.config_path(b), b.overrides);
+    of_b.evolution.generations = of_a.evolution.generations;
+    return differing_result_settings(of_a, of_b).empty();
+}
+
+/// A source run that a base comes from must not count as one without knowledge.
+void refuse_source_runs_as_targets(TransferRequest const& request, CampaignPlan const& plan) {
+    for (Treatment const& task : plan.tasks)
+        for (Treatment const& source : plan.sources)
+            if (repeat_each_other(plan, source, task))
+                request.table.fail(
+                    "method",
+                    fmt::format(
+                        "runs of target task '{}' would be runs of source '{}' again (same settings, seeds from "
+                        "{} and from {})",
+                        task.name, source.name, task.first_seed, source.first_seed),
+                    fmt::format("Give the target another first_seed, such as {}.", seed_of(source, source.runs) + 1));
+}
+
 }   // namespace
 
 std::optional<TransferRequest> read_transfer(TomlTable const& document, CampaignPlan const& plan) {
@@ -92,6 +117,7 @@ void add_transfer_bases(TransferRequest const& request, CampaignPlan& plan) {
 }
 
 void add_transfer_treatments(TransferRequest const& request, CampaignPlan& plan) {
+    refuse_source_runs_as_targets(request, plan);
     OpenedChannels opened{plan};
     auto const of_sources = channels_of(plan.sources, opened), of_tasks = channels_of(plan.tasks, opened);
     for (std::size_t t = 0; t < plan.tasks.size(); ++t) {

@@ -4,12 +4,22 @@
 
 #include <lore/core/error.h>
 #include <lore/experiment/config.h>
+#include <lore/experiment/run_directory.h>
+
+#include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
 namespace lore {
 
 namespace {
+
+/// "DIRECTORY/knowledge/NAME.lorekb", as CampaignDirectory has it.
+bool is_base(std::filesystem::path const& path, std::string const& knowledge) {
+    std::filesystem::path const usual = CampaignDirectory{"."}.knowledge(knowledge);
+    return path.filename() == usual.filename() && path.parent_path().filename() == usual.parent_path().filename();
+}
 
 // ---- knowledge = "kb1": a base for the reward ----
 
@@ -52,6 +62,9 @@ std::vector<std::string> after_knowledge(CampaignPlan const&, Treatment const& t
 std::vector<std::string> knowledge_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--kb", context.directory.knowledge(treatment.knowledge)};
 }
+bool is_knowledge(std::filesystem::path const& path, CampaignPlan const&, Treatment const& treatment) {
+    return is_base(path, treatment.knowledge);
+}
 
 // ---- clone_of = "kb1", policy_of = "kb1": founders ----
 
@@ -63,6 +76,9 @@ std::vector<std::string> after_clone(CampaignPlan const&, Treatment const& treat
 }
 std::vector<std::string> clone_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--founders", context.directory.knowledge(treatment.clone_of)};
+}
+bool is_clone(std::filesystem::path const& path, CampaignPlan const&, Treatment const& treatment) {
+    return is_base(path, treatment.clone_of);
 }
 
 void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
@@ -79,16 +95,42 @@ std::vector<std::string> after_policy(CampaignPlan const& plan, Treatment const&
 std::vector<std::string> policy_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--founders", source_run_of(context.plan.knowledge_base(treatment.policy_of), context)};
 }
+/// Of which run, the campaign's choice says, and that is kept.
+bool is_policy(std::filesystem::path const& path, CampaignPlan const& plan, Treatment const& treatment) {
+    std::string const& source = plan.knowledge_base(treatment.policy_of).source;
+    return path.filename() == run_file::lineage && path.parent_path().parent_path().filename() == source;
+}
 
 constexpr TreatmentInput inputs[] = {
-    {"knowledge", "shaping", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments},
-    {"clone_of", "clone", &Treatment::clone_of, fit_clone, after_clone, clone_arguments},
-    {"policy_of", "policy", &Treatment::policy_of, fit_policy, after_policy, policy_arguments},
+    {"knowledge", "shaping", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments,
+     file_role::knowledge, is_knowledge},
+    {"clone_of", "clone", &Treatment::clone_of, fit_clone, after_clone, clone_arguments, file_role::founders, is_clone},
+    {"policy_of", "policy", &Treatment::policy_of, fit_policy, after_policy, policy_arguments, file_role::founders,
+     is_policy},
 };
 
 }   // namespace
 
 std::span<TreatmentInput const> treatment_inputs() { return inputs; }
+
+std::string other_inputs(CampaignPlan const& plan, Treatment const& treatment, std::string const& founders_from,
+                         Manifest const& manifest) {
+    for (std::string_view const role : {file_role::knowledge, file_role::founders}) {
+        FileRecord const* const read = find_role(manifest.inputs, role);
+        auto const wanted = std::find_if(std::begin(inputs), std::end(inputs), [&](TreatmentInput const& input) {
+            return input.role == role && !(treatment.*input.name).empty();
+        });
+        if (wanted == std::end(inputs)) {
+            bool const from_elsewhere = role == file_role::founders && !founders_from.empty();
+            if (read != nullptr && !from_elsewhere) return fmt::format("with {} as {}", read->path, role);
+        } else if (read == nullptr) {
+            return fmt::format("without {} = {}", wanted->key, treatment.*wanted->name);
+        } else if (!wanted->is_read(read->path, plan, treatment)) {
+            return fmt::format("with {}, not with {} = {}", read->path, wanted->key, treatment.*wanted->name);
+        }
+    }
+    return "";
+}
 
 void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& plan) {
     std::vector<std::string> names{"source"};

@@ -13,7 +13,9 @@ std::string one_line(std::string_view problem, std::string_view reason, std::str
     if (!reason.empty()) line.append(" (").append(reason).append(")");
     line.append(".");
     if (!remedy.empty()) line.append(" ").append(remedy);
-    std::replace(line.begin(), line.end(), '\n', ' ');
+    // A file's name or a program's words may hold anything; a terminal obeys control characters.
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     return line;
 }
 

@@ -23,22 +23,9 @@ void check_range(TomlTable const& table, std::string_view key, Number value, Num
                    fmt::format("Take a number from {} to {}.", least, most));
 }
 
-/// Without control characters, so that it stays on its line.
-std::string quoted(std::string_view text) {
-    std::string all = "\"";
-    for (char const c : text) {
-        if (c == '"' || c == '\\') all.append(1, '\\').append(1, c);
-        else if (c == '\n') all += "\\n";
-        else if (c == '\t') all += "\\t";
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) all += fmt::format("\\u{:04X}", c);
-        else all += c;
-    }
-    return all + '"';
-}
-
 /// A value as TOML writes it, a float with its shortest digits; nothing for one that lines() refuses.
 std::optional<std::string> written(toml::node const& node) {
-    if (auto const text = node.as_string()) return quoted(text->get());
+    if (auto const text = node.as_string()) return toml_string(text->get());
     if (auto const truth = node.as_boolean()) return truth->get() ? "true" : "false";
     if (auto const whole = node.as_integer()) return fmt::format("{}", whole->get());
     if (auto const real = node.as_floating_point()) {
@@ -57,6 +44,18 @@ std::optional<std::string> written(toml::node const& node) {
 }
 
 }   // namespace
+
+std::string toml_string(std::string_view text) {
+    std::string all = "\"";
+    for (char const c : text) {
+        if (c == '"' || c == '\\') all.append(1, '\\').append(1, c);
+        else if (c == '\n') all += "\\n";
+        else if (c == '\t') all += "\\t";
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) all += fmt::format("\\u{:04X}", c);
+        else all += c;
+    }
+    return all + '"';
+}
 
 /// One table of a document. `document` keeps the parsed whole alive.
 struct TomlTable::Node {

@@ -74,7 +74,7 @@ private:
 
         std::array<int, most_lanes> valid{};
         for (std::size_t lane = 0; lane < count_; ++lane) valid[lane] = std::clamp(lengths_[lane] - done_, 0, row);
-        client_.see({width_, chunk_steps_, values_.data(), words_.data(), x_.data(), y_.data(), chunk_rewards_},
+        client_.see({width_, row, values_.data(), words_.data(), x_.data(), y_.data(), chunk_rewards_},
                     {valid.data(), static_cast<std::size_t>(width_)});
         int const before = done_;
         done_ += row;

@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include <lore/core/error.h>
+#include <lore/core/toml.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,7 +54,7 @@ public:
             [=, &value](TomlTable const& table) {
                 if (auto read = table.string(key)) value = *std::move(read);
             },
-            [&value] { return quoted(value); });
+            [&value] { return toml_string(value); });
     }
     /// A choice, written as its name; `parse` throws UsageError for an unknown one.
     template <class Choice>
@@ -68,7 +69,7 @@ public:
                     value = parse(*read);
                 } catch (UsageError const& error) { table.fail(key, error.what()); }
             },
-            [&value] { return quoted(name(value)); });
+            [&value] { return toml_string(name(value)); });
     }
     template <class Choice>
     void add(std::string key, std::vector<Choice>& values, Choice (*parse)(std::string_view), std::string_view doc,
@@ -89,7 +90,7 @@ public:
             },
             [&values] {
                 std::vector<std::string> words;
-                for (Choice value : values) words.push_back(quoted(name(value)));
+                for (Choice value : values) words.push_back(toml_string(name(value)));
                 return fmt::format("[{}]", fmt::join(words, ", "));
             });
     }
@@ -103,7 +104,7 @@ public:
             },
             [&words] {
                 std::vector<std::string> all;
-                for (std::string const& word : words) all.push_back(quoted(word));
+                for (std::string const& word : words) all.push_back(toml_string(word));
                 return fmt::format("[{}]", fmt::join(all, ", "));
             });
     }
@@ -124,10 +125,18 @@ private:
             all.emplace_back(lines.substr(0, end));
         return all;
     }
+    /// A key that becomes a table, or was one, loses what it was.
     static std::string merged(std::string_view old_lines, std::string_view new_lines) {
+        auto const key_of = [](std::string const& line) { return line.substr(0, line.find(" = ")); };
         std::map<std::string, std::string> by_key;
-        for (std::string_view const lines : {old_lines, new_lines})
-            for (std::string const& line : split(lines)) by_key[line.substr(0, line.find(" = "))] = line;
+        for (std::string const& line : split(old_lines)) by_key[key_of(line)] = line;
+        for (std::string const& line : split(new_lines)) {
+            std::string const key = key_of(line);
+            std::erase_if(by_key, [&](auto const& old) {
+                return old.first.starts_with(key + ".") || key.starts_with(old.first + ".");
+            });
+            by_key[key] = line;
+        }
         std::string all;
         for (auto const& [key, line] : by_key) all += line + "\n";
         return all;
@@ -135,16 +144,6 @@ private:
     static std::string inline_table(std::string_view lines) {
         std::vector<std::string> const all = split(lines);
         return all.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(all, ", "));
-    }
-    static std::string quoted(std::string_view text) {
-        std::string literal = "\"";
-        for (char const c : text) {
-            if (c == '"' || c == '\\') literal += '\\';
-            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-                literal += fmt::format("\\u{:04x}", static_cast<int>(c));
-            else literal += c;
-        }
-        return literal + "\"";
     }
     template <class Number>
     static std::string range(Number least, Number most) {

@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_failures = 50;   ///< shown with their logs
 
-bool is_run(Step const& step) { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
-
 TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory const& directory,
                                std::vector<StepWithState> const& steps, ProgressMemory& progress) {
     TreatmentFacts facts;

@@ -28,6 +28,11 @@ struct Step {
     bool takes_what_is_there = false;   ///< it can do without those of them that failed
 };
 
+/// Whether it is a run of lore-evolve.
+inline bool is_run(Step const& step) { return step.kind == StepKind::evolve || step.kind == StepKind::archive; }
+/// The name of a step or a group where it may have no '/', which separates directories: "source-007".
+std::string flat_name(std::string_view step);
+
 /// All of a campaign, in the order in which it is worked through; every step after those that it waits for.
 std::vector<Step> steps_of(CampaignPlan const&);
 /// Throws UsageError for a name that is neither a step nor a group.

@@ -58,4 +58,7 @@ private:
     std::shared_ptr<Node> node_;
 };
 
+/// A text as TOML writes it, in quotes, without control characters: it stays on its line.
+std::string toml_string(std::string_view text);
+
 }   // namespace lore

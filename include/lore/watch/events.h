@@ -24,7 +24,7 @@ public:
     /// throw for what the disk says: a run that cannot be read is an event of its own, once until it changes.
     std::vector<std::string> look();
 
-    /// Runs that the last look has found.
+    /// Runs that were found so far.
     std::size_t runs() const;
     /// The directory is that of one run, which has ended.
     bool ended() const;

@@ -64,7 +64,7 @@ int failure_wanted(std::string const& treatment, std::string const& seed, std::s
 
 int main(int argc, char** argv) {
     std::vector<std::string> const arguments(argv + 1, argv + argc);
-    std::string config_path, seed = "1", out, kb;
+    std::string config_path, seed = "1", out, kb, founders;
     std::vector<std::string> overrides;
     bool archive_all = false;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
         if (word == "--seed") seed = value;
         if (word == "--out") out = value;
         if (word == "--kb") kb = value;
+        if (word == "--founders") founders = fs::is_directory(value) ? value + "/" + run_file::lineage : value;
         if (word == "--set") overrides.push_back(value);
         if (word == "--archive") archive_all = value == "all";
     }
@@ -113,6 +114,8 @@ int main(int argc, char** argv) {
         }
         manifest.generations = config.evolution.generations;
         manifest.build = build_information();
+        if (!kb.empty()) manifest.inputs.push_back(record_of_text(file_role::knowledge, "", kb));
+        if (!founders.empty()) manifest.inputs.push_back(record_of_text(file_role::founders, "", founders));
 
         std::string const progress = out + "/" + run_file::progress;
         int generation = 0;

@@ -10,11 +10,11 @@ using namespace lore;
 
 class Slurm : public test::CampaignTest {
 protected:
-    std::vector<BatchJob> jobs() const {
-        return batch_jobs(plan(), directory(), options().launcher, "/opt/lore-campaign");
+    std::vector<BatchJob> jobs(std::string const& name = "c") const {
+        return batch_jobs(plan(), directory(name), options().launcher, "/opt/lore-campaign");
     }
-    BatchJob job(std::string const& group) const {
-        auto const all = jobs();
+    BatchJob job(std::string const& group, std::string const& name = "c") const {
+        auto const all = jobs(name);
         auto const found = std::find_if(all.begin(), all.end(), [&](BatchJob const& j) { return j.group == group; });
         return found == all.end() ? BatchJob{} : *found;
     }
@@ -35,6 +35,12 @@ TEST_F(Slurm, warns_requeues_and_limits) {
     for (char const* line : {"#SBATCH --time=04:00:00\n", "#SBATCH --signal=B:USR1@120\n", "#SBATCH --requeue\n",
                              "scontrol requeue", "--only \"$step\""})
         EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
+TEST_F(Slurm, writes_its_logs_into_directories_of_any_name) {
+    std::string const text = job("none", "runs of 100 %j").text;
+    EXPECT_NE(text.find("#SBATCH --output=\"/"), std::string::npos) << text;
+    EXPECT_NE(text.find("/runs of 100 %%j/logs/slurm-none-%a.out\"\n"), std::string::npos) << text;
 }
 
 TEST_F(Slurm, leaves_out_what_is_done) {

@@ -35,6 +35,35 @@ TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
         << state("source/001").reason;
 }
 
+TEST_F(State, of_a_run_made_with_another_base_or_other_founders_is_failed_and_says_which) {
+    std::string const given = "knowledge = \"kb1_all\"";
+    auto const give = [&](std::string const& key) {
+        std::string text = test::small_campaign;
+        write("campaign.toml", text.replace(text.find(given), given.size(), key));
+    };
+    auto const expect = [&](std::string const& key, std::string const& words) {
+        give(key);
+        StepState const now = state("all/001");
+        if (words.empty()) EXPECT_EQ(now.status, StepStatus::done) << key << ": " << now.reason;
+        else EXPECT_NE(now.reason.find(words), std::string::npos) << key << ": " << now.reason;
+    };
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    expect(given, "");
+    expect("", "it was made with " + directory().knowledge("kb1_all") + " as knowledge base: move ");
+    expect("knowledge = \"kb1\"", "kb1_all.lorekb, not with knowledge = kb1: move ");
+    expect("clone_of = \"kb1_all\"", "kb1_all.lorekb as knowledge base: move ");
+    for (std::string const key : {"clone_of", "policy_of"}) {
+        give(key + " = \"kb1\"");
+        std::filesystem::remove_all(directory().run("all"));
+        ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+        expect(key + " = \"kb1\"", "");
+        expect("clone_of = \"kb2\"", "not with clone_of = kb2: move ");
+        expect(given, "it was made without knowledge = kb1_all: move ");
+        expect("", " as founders: move ");
+        expect("set = [\"founders.from=elsewhere.lore\"]", "");
+    }
+}
+
 TEST_F(State, of_a_run_with_another_seed_is_failed) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     std::string text = test::small_campaign;

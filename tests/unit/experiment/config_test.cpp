@@ -208,6 +208,11 @@ TEST(Config, names_a_world_with_settings_that_come_back_and_can_be_overridden) {
     EXPECT_EQ(longer.world.settings, "length = 2\nmass = 0.5\ntask = \"short_pole\"\n");
     ExperimentConfig const words = parse(text, {"world.settings.task=long_pole", "world.settings.free=true"});
     EXPECT_EQ(words.world.settings, "free = true\nlength = 1.5\ntask = \"long_pole\"\n");
+    EXPECT_EQ(parse(text, {"world.settings.length.least=1"}).world.settings,
+              "length.least = 1\ntask = \"short_pole\"\n")
+        << "no number any more";
+    EXPECT_EQ(parse(text, {"world.settings.length.least=1", "world.settings.length=3"}).world.settings,
+              "length = 3\ntask = \"short_pole\"\n");
     EXPECT_EQ(differing_result_settings(longer, config).size(), 1u) << "what the library is told affects results";
     EXPECT_FALSE(parse("").has_world());
 }

@@ -27,7 +27,7 @@ class Campaign:
 
     @property
     def treatments(self) -> list[str]:
-        """Those that have runs, the source first, then by name."""
+        """Those that have runs: one called "source" first, then by name."""
         runs = os.path.join(self.path, "runs")
         folders = (entry.name for entry in os.scandir(runs) if entry.is_dir())
         names = [name for name in folders if name != "archive" and self._numbers(name)]

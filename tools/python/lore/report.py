@@ -196,9 +196,9 @@ class Report:
 
     @property
     def labels(self) -> dict[str, str]:
-        """The label of each treatment and knowledge base, the treatments in the order of figures, the source's first.
+        """The label of each treatment, in the order of figures, the source's first; the name of each knowledge base.
 
-        Where summary.json is missing, names serve as labels, in the order of final.csv.
+        Where summary.json is missing, the names of treatments serve as labels, in the order of final.csv.
         """
         if not os.path.exists(self._file("summary.json")):
             return {str(name): str(name) for name in dict.fromkeys(self.final["treatment"].tolist())}
