@@ -33,7 +33,9 @@ class Releases(unittest.TestCase):
             shutil.copytree(DATA / "release-1.0.0", place)
             for name, line in (("commands.txt", "lore-kb build --gone"), ("settings.txt", "evolution.gone"),
                                ("columns.txt", "final.csv gone"), ("python.txt", "lore.Gone"),
-                               ("headers.txt", "lore/gone.h"), ("world_layout.txt", "lore_facts.gone 0 4")):
+                               ("headers.txt", "lore/gone.h"), ("world_layout.txt", "lore_facts.gone 0 4"),
+                               ("world.c", "#error gone"), ("program.cpp", "#error gone"),
+                               ("jobs/campaigns/small.toml", "[gone]")):
                 with open(place / name, "a") as file:
                     file.write(line + "\n")
             (place / "signature.txt").write_text("signature: 0123456789abcdef\n")
@@ -41,9 +43,11 @@ class Releases(unittest.TestCase):
             told = "\n".join(missing(place))
         for line in ("1.0.0 has 'lore-kb build --gone' (commands.txt), and this Lore has not", "'evolution.gone'",
                      "'final.csv gone'", "'lore.Gone'", "'lore/gone.h'", "'lore_facts.gone 0 4'",
-                     "1.0.0: its stopped run: it ends with 'signature: ", "1.0.0: its knowledge base: "):
+                     "1.0.0: the world that was compiled for it: ", "1.0.0: its program for the C++ library: ",
+                     "1.0.0: its stopped run: it ends with 'signature: ", "1.0.0: its knowledge base: ",
+                     "1.0.0: its campaigns: "):
             self.assertIn(line, told)
-        self.assertEqual(len(told.splitlines()), 8, told)
+        self.assertEqual(len(told.splitlines()), 11, told)
 
 
 if __name__ == "__main__":
