@@ -1,7 +1,7 @@
 // Evolves controllers on a task, alone or on many ranks:
 //
 //   lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
-//   mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --seed 7 --out runs/kb1/007
+//   mpirun -n 2 lore-evolve jobs/tasks/target.toml --founders best.lorekb --seed 7 --out runs/t1/007
 //
 // Writes configuration, provenance, progress, lineage and checkpoints into the directory (docs/manual/formats.md), and
 // prints the run's signature. Interrupted, it stops at a checkpoint with exit code 75; --resume goes on from there.
@@ -31,7 +31,8 @@ constexpr char this_program[] = "lore-evolve";
 constexpr char examples[] = R"(Examples:
   lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007
   mpirun -n 2 lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007 --resume
-  mpirun -n 2 lore-evolve jobs/tasks/target.toml --kb kb1.lorekb --out runs/kb1/001 --set evolution.generations=500
+  lore-kb reduce kb1.lorekb --top 1000 --out best.lorekb
+  mpirun -n 2 lore-evolve jobs/tasks/target.toml --founders best.lorekb --out runs/t1 --set evolution.generations=500
   lore-evolve --bench
 
 Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line, configuration or
@@ -106,7 +107,8 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
     std::string founders;
     app.add_option("--founders", founders,
-                   "founders file, or run whose last population the founders come from: --set founders.from=FILE")
+                   "knowledge base to clone founders from, founders file, or run whose last population they come from: "
+                   "--set founders.from=FILE")
         ->type_name("FILE|DIR");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");

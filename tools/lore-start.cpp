@@ -56,7 +56,10 @@ std::string first_commands() {
     if (!are_here && !jobs.empty()) text += fmt::format("  cp -r {} .\n", jobs);
     text += "  lore evolve jobs/tasks/source.toml --seed 1 --out runs/s1 --set evolution.generations=300\n"
             "  lore kb build runs/s1 --out kb1.lorekb\n"
-            "  lore replay runs/s1 --kb kb1.lorekb --out replay\n";
+            "  lore replay runs/s1 --kb kb1.lorekb --out replay\n"
+            "  lore kb reduce kb1.lorekb --top 1000 --out best.lorekb\n"
+            "  lore evolve jobs/tasks/target.toml --founders best.lorekb --seed 1 --out runs/t1 "
+            "--set evolution.generations=300\n";
     if (!jobs.empty())
         text += fmt::format("or, to see in a few minutes whether knowledge helps,\n  {}/quickstart\n",
                             are_here ? "jobs" : jobs);

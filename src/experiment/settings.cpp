@@ -203,9 +203,11 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
 
     d.section("founders");
     // As with the arena, what lies there counts.
-    d.add("from", config.founders_from,
-          "a run whose last population founders come from, or a founders file; empty: all are random",
-          Affects::nothing);
+    d.add(
+        "from", config.founders_from,
+        "knowledge base to clone founders from, founders file, or run whose last population they come from; empty: all "
+        "are random",
+        Affects::nothing);
     d.add("share", evolution.founding.share, 0.0, 1.0, "of the founders that come from there; the others are random");
     d.add("mutate", evolution.founding.mutate, "one mutation each of those that come from there");
 

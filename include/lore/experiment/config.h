@@ -19,7 +19,7 @@ struct ExperimentConfig {
                                          ///< in an override, to the working directory
     std::string task = "source";         ///< one of the arena's tasks
     int stop_when_still = 0;             ///< of collectball (CollectballWorld) [steps]
-    std::string founders_from;   ///< directory of a run, or a founders file; "": random founders. Relative paths
+    std::string founders_from;   ///< base, founders file or directory of a run; "": random founders. Relative paths
                                  ///< start where those of `arena` do
     EpisodeConfig episode;
     EvolutionConfig evolution;
