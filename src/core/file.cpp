@@ -60,7 +60,7 @@ std::string current_path(std::string const& path) {
     if (found.size() != 1) return path;
     static std::set<std::string> told;
     if (told.insert(path).second)
-        write_stderr(fmt::format("{} has moved to {}; the old name works in this version only.\n", path,
+        write_stderr(fmt::format("{} has moved to {}; the old name works in every 1.x, not in 2.\n", path,
                                  found.front().string()));
     return found.front().string();
 }

@@ -150,6 +150,6 @@ TEST_F(Files, that_have_moved_are_read_where_they_are_now) {
     test::Ran const ran = shell("$program jobs/mine.toml --out run -q");
     EXPECT_EQ(ran.exit_code, 0);
     EXPECT_EQ(ran.errors,
-              "jobs/mine.toml has moved to jobs/tasks/mine.toml; the old name works in this version only.\n");
+              "jobs/mine.toml has moved to jobs/tasks/mine.toml; the old name works in every 1.x, not in 2.\n");
     EXPECT_THAT(file_text(run_directory + "/manifest.json"), HasSubstr("\"path\": \"jobs/tasks/mine.toml\""));
 }

@@ -53,7 +53,7 @@ TEST(CurrentPath, of_a_file_that_has_moved_is_its_new_place_and_said_once) {
     EXPECT_EQ(current_path(scratch.file("jobs/source.toml")), scratch.file("jobs/tasks/source.toml"));
     EXPECT_EQ(::testing::internal::GetCapturedStderr(), scratch.file("jobs/source.toml") + " has moved to " +
                                                             scratch.file("jobs/tasks/source.toml") +
-                                                            "; the old name works in this version only.\n");
+                                                            "; the old name works in every 1.x, not in 2.\n");
     EXPECT_EQ(current_path(scratch.file("jobs/paper.toml")), scratch.file("jobs/campaigns/paper.toml"));
     EXPECT_EQ(current_path(scratch.file("jobs/arenas/room.toml")), scratch.file("jobs/tasks/arenas/room.toml"));
 }
