@@ -14,9 +14,9 @@ def write_all(source, pages, xml, programs):
     mirror(source, pages)
     sections = {
         "Tutorials": written(source, "tutorials"),
-        "Manual": written(source, "manual"),
+        "Manual": written(source, "manual") + ["jobs/campaigns/README"],
         "Design": written(source, "design"),
-        "Findings": written(source, "findings") + ["docs/paper", write_gallery(source, pages)],
+        "Findings": written(source, "findings") + ["docs/paper", "docs/results/README", write_gallery(source, pages)],
         "Reference": [write_programs(pages, programs), write_python_reference(pages),
                       write_cpp_reference(source, pages, xml), "CHANGELOG"],
     }
