@@ -83,20 +83,17 @@ WindowValues values_of(Trace const& trace, int window_length, std::vector<Shaper
 
 std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Channels const& channels,
                                    KnowledgeConfig& config) {
+    std::vector<KnowledgeBase> bases = read_knowledge_bases(paths);
     std::vector<Shaper> shapers;
-    for (std::string const& path : paths) {
-        KnowledgeBase base = read_knowledge_base(path);
-        if (base.size() == 0)
-            throw UsageError(fmt::format("cannot use {}", path), "the knowledge base is empty", "Give another one.");
-        if (std::string const why = why_misfit(base.config().channels, channels); !why.empty())
-            throw UsageError(fmt::format("cannot use {}", path), why, "Give a base of a world with these channels.");
-        if (shapers.empty()) config = base.config();
-        if (base.config().window_length != config.window_length)
-            throw UsageError(
-                fmt::format("cannot combine {} with {}", path, paths.front()),
-                fmt::format("windows of {} and of {} steps", base.config().window_length, config.window_length),
-                "Give knowledge bases of one window length.");
-        shapers.emplace_back(std::move(base));
+    for (std::size_t k = 0; k < bases.size(); ++k) {
+        if (bases[k].size() == 0)
+            throw UsageError(fmt::format("cannot use {}", paths[k]), "the knowledge base is empty",
+                             "Give another one.");
+        if (std::string const why = why_misfit(bases[k].config().channels, channels); !why.empty())
+            throw UsageError(fmt::format("cannot use {}", paths[k]), why,
+                             "Give a base of a world with these channels.");
+        if (k == 0) config = bases[k].config();
+        shapers.emplace_back(std::move(bases[k]));
     }
     return shapers;
 }

@@ -374,4 +374,17 @@ KnowledgeBase read_knowledge_base(std::string const& path) {
     return KnowledgeBase{std::move(parts)};
 }
 
+std::vector<KnowledgeBase> read_knowledge_bases(std::vector<std::string> const& paths) {
+    std::vector<KnowledgeBase> bases;
+    for (std::string const& path : paths) {
+        bases.push_back(read_knowledge_base(path));
+        int const length = bases.back().config().window_length, first = bases.front().config().window_length;
+        if (length != first)
+            throw UsageError(fmt::format("cannot combine {} with {}", path, paths.front()),
+                             fmt::format("windows of {} and of {} steps", length, first),
+                             "Give knowledge bases of one window length.");
+    }
+    return bases;
+}
+
 }   // namespace lore

@@ -1,5 +1,6 @@
 #include "child.h"
 
+#include <lore/core/child_signals.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/input_file.h>
@@ -44,11 +45,7 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
     if (pid == 0) {
         // Only what is safe between fork and exec.
         ::setpgid(0, 0);
-        sigset_t none;
-        sigemptyset(&none);
-        ::sigprocmask(SIG_SETMASK, &none, nullptr);
-        for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGCHLD, SIGPIPE})
-            ::signal(signal, SIG_DFL);
+        give_signals_back();
         int const nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
         ::dup2(nothing, STDIN_FILENO);
         ::dup2(output, STDOUT_FILENO);

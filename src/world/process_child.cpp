@@ -1,5 +1,6 @@
 #include "process_child.h"
 
+#include <lore/core/child_signals.h>
 #include <lore/core/error.h>
 
 #include <array>
@@ -58,11 +59,7 @@ std::vector<char*> environment_of_worlds() {
 #else
     static_cast<void>(parent);
 #endif
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (int const signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGCHLD, SIGPIPE})
-        ::signal(signal, SIG_DFL);
+    give_signals_back();
     ::dup2(input, STDIN_FILENO);
     ::dup2(output, STDOUT_FILENO);
     if (*folder == '\0' || ::chdir(folder) == 0) ::execvpe(arguments[0], arguments, environment);

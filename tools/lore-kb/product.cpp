@@ -19,25 +19,11 @@ struct ProductOptions {
     std::optional<std::string> individual;
 };
 
-/// One a base. Throws UsageError unless all have one window length.
-std::vector<Shaper> shapers_of(std::vector<std::string> const& paths) {
-    std::vector<Shaper> shapers;
-    for (std::string const& path : paths) {
-        shapers.emplace_back(read_knowledge_base(path));
-        int const length = shapers.front().base().config().window_length;
-        if (shapers.back().base().config().window_length != length)
-            throw UsageError(
-                fmt::format("cannot combine {} with {}", path, paths.front()),
-                fmt::format("windows of {} and of {} steps", shapers.back().base().config().window_length, length),
-                "Give knowledge bases of one window length.");
-    }
-    return shapers;
-}
-
 void product(Program const& program, ProductOptions const& options) {
     check_writable(options.csv);
     Trace const trace = trace_of(open_run(options.run), options.individual.value_or("best"));
-    std::vector<Shaper> const shapers = shapers_of(options.bases);
+    std::vector<Shaper> shapers;
+    for (KnowledgeBase& base : read_knowledge_bases(options.bases)) shapers.emplace_back(std::move(base));
     std::string csv = "window,step,product";
     for (std::size_t i = 1; i <= shapers.size(); ++i) fmt::format_to(std::back_inserter(csv), ",value_{}", i);
     csv += '\n';

@@ -4,6 +4,7 @@
 #include <lore/knowledge/knowledge_base.h>
 
 #include <string>
+#include <vector>
 
 namespace lore {
 
@@ -16,6 +17,8 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const&);
 /// Maps the file and checks it whole: header, lengths, checksum, and that every number is finite and in its range.
 /// Throws Error. The knowledge base keeps the mapping alive.
 KnowledgeBase read_knowledge_base(std::string const& path);
+/// Bases that are used together. Throws as read_knowledge_base, and UsageError unless all have windows of one length.
+std::vector<KnowledgeBase> read_knowledge_bases(std::vector<std::string> const& paths);
 /// What a base knows of its world: the channels and the unit of the reward.
 WorldRecord world_record(KnowledgeBase const&);
 
