@@ -33,6 +33,7 @@ struct Found {
     std::map<std::string, FileSum> files;
     std::map<std::string, std::string> texts;   ///< of the two files that describe the others
     std::vector<std::string> defects;
+    std::set<std::string> claimed_twice;   ///< paths of a file that another entry has, too: as a file or as a folder
     std::uint64_t bytes_of_texts = 0;
     std::string prefix;   ///< of the root in an archive: "", or "folder/"
 };
@@ -80,9 +81,24 @@ void add_entry(ArchiveEntry const& entry, Found& found) {
             throw Error(fmt::format("cannot read {}", name), "it is too long", "Take a copy that is whole.");
         text.append(reinterpret_cast<char const*>(piece.data()), piece.size());
     });
-    if (!found.files.emplace(name, FileSum{bytes, sum.text()}).second)
+    if (!found.files.emplace(name, FileSum{bytes, sum.text()}).second) {
         found.defects.push_back(fmt::format("{}: it is there twice", name));
+        found.claimed_twice.insert(name);
+    }
     if (describes(name)) found.texts[name] = std::move(text);
+}
+
+/// A file cannot lie beside a folder of its name.
+void find_files_that_are_folders(Found& found) {
+    std::set<std::string> folders;
+    for (auto const& [name, sum] : found.files)
+        for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1))
+            folders.insert(name.substr(0, end));
+    for (std::string const& name : folders) {
+        if (!found.files.contains(name)) continue;
+        found.defects.push_back(fmt::format("{}: it is a file and a folder", name));
+        found.claimed_twice.insert(name);
+    }
 }
 
 /// The folder of the crate's metadata that lies highest.
@@ -101,6 +117,7 @@ std::string prefix_of(Found const& found) {
 Found look_at_archive(std::string const& path, Pulse const& pulse) {
     Found all;
     for_each_entry(path, pulse, [&](ArchiveEntry const& entry) { add_entry(entry, all); });
+    find_files_that_are_folders(all);
     Found found;
     found.defects = std::move(all.defects);
     found.prefix = prefix_of(all);
@@ -108,6 +125,8 @@ Found look_at_archive(std::string const& path, Pulse const& pulse) {
         if (name.starts_with(found.prefix)) found.files.emplace(name.substr(found.prefix.size()), std::move(sum));
         else found.defects.push_back(fmt::format("{}: it lies outside of the crate", name));
     }
+    for (std::string const& name : all.claimed_twice)
+        if (name.starts_with(found.prefix)) found.claimed_twice.insert(name.substr(found.prefix.size()));
     for (auto& [name, text] : all.texts)
         if (name.starts_with(found.prefix)) found.texts[name.substr(found.prefix.size())] = std::move(text);
     return found;
@@ -262,12 +281,13 @@ void read_formats(std::string const& root, std::set<std::string> const& paths, C
     }
 }
 
-/// Files of Lore that are as they are described.
+/// Files of Lore that are there once and as they are described.
 std::set<std::string> readable(CrateDescription const& crate, Found const& found) {
     std::set<std::string> paths;
     for (DescribedFile const& said : crate.files) {
         auto const is = found.files.find(said.path);
-        if (is_of_lore(said.path) && is != found.files.end() && difference(said, is->second).empty())
+        if (is_of_lore(said.path) && !found.claimed_twice.contains(said.path) && is != found.files.end() &&
+            difference(said, is->second).empty())
             paths.insert(said.path);
     }
     return paths;

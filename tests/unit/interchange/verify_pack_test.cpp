@@ -94,11 +94,21 @@ TEST_F(VerifyPack, does_not_follow_names_that_lead_out) {
                             {"/tmp/lore-out.txt", "x"},
                             files[0],
                             files[1],
-                            {"a.txt", "again"},
                             {"ro-crate-metadata.json", crate_of(files)}});
+    EXPECT_THAT(defects_of("p.zip"), ElementsAre("../out.txt: its name is no path in the archive",
+                                                 "/tmp/lore-out.txt: its name is no path in the archive"));
+}
+
+TEST_F(VerifyPack, tells_of_a_path_that_two_entries_have_and_reads_the_other_files) {
+    Files const described{
+        {"a.csv", "a,b\n1,2\n"}, {"c.csv/d.csv", "a,b\n1,2\n"}, {"c.csv", "a\n1\n"}, {"cut.csv", "a\n1"}};
+    Files all = described;
+    all.emplace_back("a.csv", "a,b\n3,4\n");
+    all.emplace_back("ro-crate-metadata.json", crate_of(described));
+    write_archive("p.zip", all);
     EXPECT_THAT(defects_of("p.zip"),
-                ElementsAre("../out.txt: its name is no path in the archive",
-                            "/tmp/lore-out.txt: its name is no path in the archive", "a.txt: it is there twice"));
+                ElementsAre("a.csv: it is there twice", "c.csv: it is a file and a folder",
+                            "cut.csv: cannot read cut.csv (its last line was cut). Take a copy that is whole."));
 }
 
 TEST_F(VerifyPack, reads_the_files_of_lore) {
