@@ -30,6 +30,7 @@ void check_names(CampaignPlan const& plan, Results const& results) {
     };
     for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
     for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
+    for (PopulationRow const& row : results.populations) check_treatment("population.csv", row.treatment);
     for (SpeedRow const& row : results.speeds) check_treatment("speed.csv", row.treatment);
     for (LeadRow const& row : results.leads)
         for (std::string const& name : {row.treatment, row.policy, row.none}) check_treatment("leads.csv", name);
@@ -37,7 +38,7 @@ void check_names(CampaignPlan const& plan, Results const& results) {
         check_treatment("replay.csv", std::string_view{replay.run}.substr(0, replay.run.find('/')));
 }
 
-/// Numbers of different units cannot be taken together.
+/// Rewards of different units cannot be taken together.
 void check_pools(CampaignPlan const& plan, Results const& results) {
     for (PoolPlan const& pool : plan.pools) {
         std::string const* first = nullptr;
@@ -52,6 +53,15 @@ void check_pools(CampaignPlan const& plan, Results const& results) {
                                  "Pool treatments of one unit.");
         }
     }
+}
+
+/// Makes the tables from the runs. What cannot be reported, or has a damaged replay beside it, replaces no table.
+void make_tables(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
+    Results results = collect_results(plan, from);
+    results.replays = read_replays(into).replays;
+    check_names(plan, results);
+    check_pools(plan, results);
+    write_results(into, results);
 }
 
 void write_text(CampaignDirectory const& into, std::string_view name, std::string const& text) {
@@ -115,7 +125,7 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
         throw UsageError(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
                          "Start with 'lore-campaign run', or check --dir.");
     make_directory(into.file("figures"));
-    if (has_runs) write_results(into, collect_results(given, from));
+    if (has_runs) make_tables(given, from, into);
     Results const results = read_results(has_runs ? into : from);
     CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
     check_names(plan, results);

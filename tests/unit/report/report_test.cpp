@@ -190,6 +190,11 @@ TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {
     write("kept/curves.csv", "treatment,generation,runs,mean,low,high\nkb1,0,3,1,0.5,1.5\n");
     write("kept/final.csv", "treatment,run,seed,balls\nkb9,1,1,3\n");
     EXPECT_THROW(write_report(plan(), directory("kept")), Error) << "a treatment that the campaign does not know";
+    write("kept/final.csv", "treatment,run,seed,balls\nkb1,1,1,3\n");
+    write("kept/population.csv", "treatment,generation,runs,mean_balls,fronts,tied,best_shaping,shaping_at_max,"
+                                 "connections,hidden\nkb9,0,1,1,1,0,-1,1,15,0\n");
+    EXPECT_THAT(test::complaint_of([&] { write_report(plan(), directory("kept")); }),
+                ::testing::HasSubstr("population.csv tells of a treatment 'kb9'"));
 }
 
 TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tables) {
@@ -229,6 +234,22 @@ TEST_F(Report, refuses_a_pool_of_rewards_of_different_units) {
     write("kept/final.csv", "treatment,run,seed,reward,unit\nkb1,1,1,3,balls\nall,1,1,-1,cos\n");
     EXPECT_THAT(test::complaint_of<UsageError>([&] { write_report(plan(), directory("kept"), directory("out")); }),
                 ::testing::HasSubstr("pool 'both'"));
+}
+
+TEST_F(Report, replaces_no_table_where_it_is_refused) {
+    write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"both\"\ntreatments = [\"kb1\", \"none\"]\n");
+    RunnerOptions some = options();
+    some.only = {"none"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    write_report(plan(), directory());
+    std::string const runs = made("runs.csv"), curves = made("curves.csv");
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    EXPECT_THAT(test::complaint_of<UsageError>([&] { write_report(plan(), directory()); }),
+                ::testing::HasSubstr("pool 'both'"));
+    EXPECT_EQ(made("runs.csv"), runs);
+    EXPECT_EQ(made("curves.csv"), curves);
 }
 
 TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
