@@ -1,11 +1,5 @@
 // Replay: the arena as SVG, the robot where the slider says.
 @LORE_REPLAY_BEGIN@
-  // White for nothing to blue for the highest value; gray where the knowledge base does not find the window.
-  const shade = (value, most) => {
-    if (value < 0) return "#bbbbbb";
-    const share = most > 0 ? value / most : 0, mix = (a, b) => Math.round(a + (b - a) * share);
-    return `rgb(${mix(222, 8)},${mix(235, 48)},${mix(247, 107)})`;
-  };
   let shown, parts, timer = null;
 
   function open(replay) {
@@ -16,15 +10,15 @@
     const rectangle = ([x0, x1, y0, y1], fill) => make("rect", { x: x0, y: y0, width: x1 - x0, height: y1 - y0, fill });
     make("circle", { cx: arena.basket[0], cy: arena.basket[1], r: arena.basket[2], fill: "#f0e442", "fill-opacity": .5 });
     for (const wall of arena.walls) rectangle(wall, "#555555");
-    const most = Math.max(0, ...replay.values);
+    const found = replay.values.filter(value => value !== null), least = Math.min(0, ...found), most = Math.max(0, ...found);
     const trail = make("g", { fill: "none", "stroke-width": 2.2, "stroke-linecap": "round" });
-    const stretch = replay.values.length ? Math.ceil(replay.x.length / replay.values.length) : 20;
+    const stretch = replay.window_length ?? 20;
     const trails = [];
     for (let from = 0; from < replay.x.length - 1; from += stretch) {
       const points = [];
       for (let k = from; k <= Math.min(from + stretch, replay.x.length - 1); ++k) points.push(`${replay.x[k]},${replay.y[k]}`);
-      const value = replay.values.length ? replay.values[Math.floor(from / stretch)] : -1;
-      trails.push(make("polyline", { points: points.join(" "), stroke: shade(value, most) }, trail));
+      const value = replay.values[from / stretch] ?? null;
+      trails.push(make("polyline", { points: points.join(" "), stroke: shade(value, least, most) }, trail));
     }
     parts = {
       trails, stretch,
@@ -50,9 +44,9 @@
     parts.balls.forEach((ball, i) => ball.setAttribute("visibility", mask >> i & 1 ? "visible" : "hidden"));
     parts.lamp.setAttribute("fill", lamp ? "#56b4e9" : "#ffffff");
     parts.trails.forEach((piece, i) => piece.setAttribute("opacity", i * parts.stretch <= k ? 1 : .18));
-    const value = shown.values.length ? shown.values[Math.min(Math.floor(k / parts.stretch), shown.values.length - 1)] : null;
+    const value = shown.values[Math.floor(k / parts.stretch)];
     state.textContent = `step ${k} of ${shown.x.length - 1}, ${collected} ${collected === 1 ? "ball" : "balls"} collected` +
-      (carrying ? ", carrying" : "") + (value === null ? "" : value < 0 ? ", window not in the knowledge base" : `, value ${value}`);
+      (carrying ? ", carrying" : "") + (value === undefined ? "" : value === null ? ", window not in the knowledge base" : `, value ${value}`);
   }
 
 @LORE_REPLAY_END@

@@ -4,6 +4,7 @@
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
+#include <lore/knowledge/window.h>
 #include <lore/world/reward_text.h>
 
 #include <algorithm>
@@ -105,7 +106,9 @@ std::string scenes_text(Replays const& all) {
         text += fmt::format("{}\n{}", &replay == all.replays.data() ? "" : ",",
                             json_of(replay, arenas).dump(-1, ' ', false, Json::error_handler_t::replace));
     Json const panels = list(all.panels, [](PanelValues const& panel) {
-        return Json{{"figure", panel.figure}, {"knowledge", panel.knowledge}, {"checksum", panel.checksum}};
+        Json json{{"figure", panel.figure}, {"knowledge", panel.knowledge}, {"checksum", panel.checksum}};
+        if (panel.window_length > 0) json["window_length"] = panel.window_length;
+        return json;
     });
     return text + fmt::format("],\n\"panels\": {}}}\n", panels.dump());
 }
@@ -149,6 +152,28 @@ void read_steps(std::string const& path, std::vector<Replay>& replays) {
         if (replay.steps.empty()) table.refuse(fmt::format("it has no step of '{}'", replay.run));
 }
 
+PanelValues panel_of(Json const& json) {
+    PanelValues panel{json.at("figure"), json.at("knowledge"), {}, json.at("checksum"), json.value("window_length", 0)};
+    if (json.contains("window_length") && panel.window_length < 1)
+        throw std::invalid_argument{"a window without length"};
+    return panel;
+}
+
+/// Files of Lore 1.0.0 do not say the length of windows. So many whole ones fit where the length is the usual one, or
+/// else the longest of those with which they do.
+int fitting_length(std::size_t steps, std::size_t windows) {
+    KnowledgeConfig const usual;
+    auto const length = static_cast<std::size_t>(usual.window_length);
+    if (windows == 0 || steps / length == windows) return usual.window_length;
+    return static_cast<int>(std::max<std::size_t>(1, steps / windows));
+}
+
+/// Nor have those of arenas an empty field for a window that is not found: they have -1, and 0 of a product.
+void mark_not_found(PanelValues& panel) {
+    double const not_found = panel.knowledge.find('*') != std::string::npos ? 0 : -1;
+    std::replace(panel.values.begin(), panel.values.end(), not_found, std::numeric_limits<double>::quiet_NaN());
+}
+
 void read_values(std::string const& path, std::vector<PanelValues>& panels) {
     CsvTable const table = CsvTable::read(path, remedy);
     std::size_t const figure = table.column("figure"), knowledge = table.column("knowledge"),
@@ -187,8 +212,7 @@ Replays read_scenes(CampaignDirectory const& directory) {
     try {
         Json const document = Json::parse(read_text(path));
         for (Json const& entry : document.at("replays")) all.replays.push_back(replay_of(entry));
-        for (Json const& entry : document.at("panels"))
-            all.panels.push_back({entry.at("figure"), entry.at("knowledge"), {}, entry.at("checksum")});
+        for (Json const& entry : document.at("panels")) all.panels.push_back(panel_of(entry));
     } catch (std::exception const& error) { throw Error(fmt::format("cannot read {}", path), error.what(), remedy); }
     return all;
 }
@@ -198,6 +222,18 @@ Replays read_replays(CampaignDirectory const& directory) {
     if (all.replays.empty()) return all;
     read_steps(directory.file("replay.csv"), all.replays);
     read_values(directory.file("values.csv"), all.panels);
+    std::size_t const steps = all.replays.front().steps.size();
+    for (PanelValues& panel : all.panels) {
+        if (panel.window_length == 0) {
+            panel.window_length = fitting_length(steps, panel.values.size());
+            if (all_in_arenas(all.replays)) mark_not_found(panel);
+        } else if (panel.values.size() > steps / static_cast<std::size_t>(panel.window_length)) {
+            throw Error(fmt::format("cannot read {}", directory.file("values.csv")),
+                        fmt::format("{} windows of {} steps are more than the {} steps of {}", panel.values.size(),
+                                    panel.window_length, steps, all.replays.front().run),
+                        remedy);
+        }
+    }
     return all;
 }
 

@@ -107,37 +107,23 @@ Repeated repeat(RunDirectory const& run, std::string const& step, std::string si
     return {std::move(replay), std::move(trace)};
 }
 
-FoundValues values_by(std::string const& knowledge, CampaignDirectory const& directory, Trace const& trace) {
-    Shaper const shaper{read_knowledge_base(directory.knowledge(knowledge))};
-    return values_of(shaper, windows_of(trace, shaper.base().config().window_length));
-}
-
-std::vector<double> product_by(std::vector<std::string> const& factors, CampaignDirectory const& directory,
-                               Trace const& trace, bool arenas) {
+/// The values of the trace's windows by these bases.
+void fill_in(PanelValues& panel, std::vector<std::string> const& bases, CampaignDirectory const& directory,
+             Trace const& trace) {
     std::vector<FoundValues> values;
-    for (std::string const& name : factors) {
-        values.push_back(values_by(name, directory, trace));
-        if (values.back().size() != values.front().size())
+    for (std::string const& name : bases) {
+        Shaper const shaper{read_knowledge_base(directory.knowledge(name))};
+        int const length = shaper.base().config().window_length;
+        if (panel.window_length > 0 && length != panel.window_length)
             throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
                         "Name others in [report].");
+        panel.window_length = length;
+        values.push_back(values_of(shaper, windows_of(trace, length)));
     }
-    std::vector<double> product = product_of(values);
-    if (arenas) return product;
+    panel.values = product_of(values);
     for (FoundValues const& of_base : values)
-        for (std::size_t w = 0; w < product.size(); ++w)
-            if (!of_base[w]) product[w] = std::numeric_limits<double>::quiet_NaN();
-    return product;
-}
-
-/// As PanelValues has them.
-std::vector<double> panel_values(CampaignPlan const& plan, PanelValues const& panel, CampaignDirectory const& directory,
-                                 Trace const& trace, bool arenas) {
-    if (panel.figure == "figure6") return product_by(plan.figures.figure6, directory, trace, arenas);
-    double const not_found = arenas ? no_feature_value : std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> values;
-    for (std::optional<double> const value : values_by(panel.knowledge, directory, trace))
-        values.push_back(value.value_or(not_found));
-    return values;
+        for (std::size_t w = 0; w < of_base.size(); ++w)
+            if (!of_base[w]) panel.values[w] = std::numeric_limits<double>::quiet_NaN();
 }
 
 }   // namespace
@@ -191,9 +177,9 @@ void make_replays(CampaignPlan const& plan, CampaignDirectory const& from, Campa
     all.replays.push_back(std::move(replay));
     for (std::string const& target : best_target_runs(plan, from)) all.replays.push_back(replay_of(from, target));
 
-    bool const arenas = all_in_arenas(all.replays);
     all.panels = panels_to_draw(plan, from);
-    for (PanelValues& panel : all.panels) panel.values = panel_values(plan, panel, from, trace, arenas);
+    for (PanelValues& panel : all.panels)
+        fill_in(panel, panel.figure == "figure6" ? plan.figures.figure6 : std::vector{panel.knowledge}, from, trace);
     write_replays(into, all);
 }
 

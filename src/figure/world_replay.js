@@ -1,11 +1,5 @@
 // Replay: a world's scene as an image behind the path, a dot where the slider says.
 @LORE_REPLAY_BEGIN@
-  // Pale for the lowest value to blue for the highest; gray where the knowledge base does not find the window.
-  const shade = (value, least, most) => {
-    if (value === null) return "#bbbbbb";
-    const share = most > least ? (value - least) / (most - least) : 0, mix = (a, b) => Math.round(a + (b - a) * share);
-    return `rgb(${mix(222, 8)},${mix(235, 48)},${mix(247, 107)})`;
-  };
   let shown, parts, timer = null;
 
   function open(replay) {
@@ -18,12 +12,12 @@
     if (svg !== "") make("image", { x: 0, y: 0, width, height, preserveAspectRatio: "none", href: "data:image/svg+xml," + encodeURIComponent(scene) });
     const found = replay.values.filter(value => value !== null), least = Math.min(...found), most = Math.max(...found);
     const trail = make("g", { fill: "none", "stroke-width": 2.2 * unit, "stroke-linecap": "round" });
-    const stretch = replay.values.length ? Math.ceil(replay.x.length / replay.values.length) : 20;
+    const stretch = replay.window_length ?? 20;
     const trails = [];
     for (let from = 0; from < replay.x.length - 1; from += stretch) {
       const points = [];
       for (let k = from; k <= Math.min(from + stretch, replay.x.length - 1); ++k) points.push(`${replay.x[k]},${replay.y[k]}`);
-      const value = replay.values.length ? replay.values[Math.floor(from / stretch)] : null;
+      const value = replay.values[from / stretch] ?? null;
       trails.push(make("polyline", { points: points.join(" "), stroke: replay.values.length ? shade(value, least, most) : "#1a5ba4" }, trail));
     }
     make("circle", { cx: replay.x[0], cy: replay.y[0], r: 6 * unit, fill: "#2f9e6e" });
@@ -39,7 +33,7 @@
     parts.dot.setAttribute("cy", shown.y[k]);
     const [, reward] = shown.rewards.findLast(change => change[0] <= k);
     parts.trails.forEach((piece, i) => piece.setAttribute("opacity", i * parts.stretch <= k ? 1 : .18));
-    const value = shown.values.length ? shown.values[Math.min(Math.floor(k / parts.stretch), shown.values.length - 1)] : undefined;
+    const value = shown.values[Math.floor(k / parts.stretch)];
     state.textContent = `step ${k} of ${shown.x.length - 1}, reward ${reward} ${shown.unit}` +
       (value === undefined ? "" : value === null ? ", window not in the knowledge base" : `, value ${value}`);
   }

@@ -23,27 +23,21 @@ double size_of(std::string const& svg, std::string_view which) {
     return value;
 }
 
-/// The scale of an arena's panel: from 0, since nothing is below it.
-void scale_arena_panel(TrajectoryPicture& picture, PanelValues const& panel, bool product) {
-    // A window without value: -1 from a single base, 0 where a product lacks a factor.
-    for (double& value : picture.values)
-        if (value < 0 || (product && value == 0)) value = std::numeric_limits<double>::quiet_NaN();
-    picture.lowest = 0;
-    picture.highest = *std::max_element(panel.values.begin(), panel.values.end());
-    if (picture.highest <= 0) picture.highest = 1;   // nothing found, or nothing of worth: a scale all the same
-    picture.not_found = product ? 0 : -1;
-}
-
-/// The scale of another world's panel: from the lowest to the highest value found.
-void scale_world_panel(TrajectoryPicture& picture) {
+/// From the lowest to the highest value found; in an arena, whose rewards are balls, with 0.
+void scale_panel(TrajectoryPicture& picture, bool arena, bool product) {
     std::vector<double> found = picture.values;
     std::erase_if(found, [](double value) { return std::isnan(value); });
+    if (arena) found.push_back(0);
     if (!found.empty()) {
         auto const [least, most] = std::minmax_element(found.begin(), found.end());
         picture.lowest = *least;
         picture.highest = *most;
     }
-    picture.not_found = std::numeric_limits<double>::quiet_NaN();
+    if (arena && picture.highest == picture.lowest) picture.highest = 1;   // a scale all the same
+    // In an arena a window that is not found is worth -1, and makes a product 0; that is a place in the strip as long
+    // as no value is negative.
+    bool const has_place = arena && picture.lowest == 0;
+    picture.not_found = !has_place ? std::numeric_limits<double>::quiet_NaN() : product ? 0 : -1;
 }
 
 /// Panel number `place` of the figure, without the trajectory itself.
@@ -56,11 +50,9 @@ TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel,
     TrajectoryPicture picture;
     picture.title = before + knowledge_label(plan, panel.knowledge);
     picture.values = panel.values;
-    if (arena) scale_arena_panel(picture, panel, product);
-    else scale_world_panel(picture);
+    scale_panel(picture, arena, product);
     picture.value_label = product ? "product of the values" : fmt::format("value ({})", replay.reward_unit);
-    std::size_t const steps = replay.steps.size();
-    picture.window_length = static_cast<int>((steps + panel.values.size() - 1) / panel.values.size());
+    picture.window_length = panel.window_length;
     return picture;
 }
 

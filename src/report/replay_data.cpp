@@ -18,14 +18,15 @@ double to_nearest(double value, double scale) { return std::round(value * scale)
 /// With 5 digits, as many as a picture can show.
 double shortened(double value) { return std::stod(fmt::format("{:.5g}", value)); }
 
-std::vector<double> values_of(PanelValues const* panel) {
-    std::vector<double> values;
-    if (panel != nullptr)
-        for (double const value : panel->values) values.push_back(to_nearest(value, 1000));
+/// null: not found.
+template <class Shorten>
+Json values_of(PanelValues const& panel, Shorten const& shorten) {
+    Json values = Json::array();
+    for (double const value : panel.values) values.push_back(std::isnan(value) ? Json{} : Json(shorten(value)));
     return values;
 }
 
-Json arena_replay_data(Replay const& replay, PanelValues const* panel) {
+Json arena_replay_data(Replay const& replay) {
     std::vector<double> x, y, theta;
     for (std::size_t k = 0; k < replay.steps.size(); ++k) {
         x.push_back(to_nearest(replay.steps[k].x, 10));
@@ -36,8 +37,7 @@ Json arena_replay_data(Replay const& replay, PanelValues const* panel) {
             {"x", x},
             {"y", y},
             {"theta", theta},
-            {"events", Json::parse(page_events(replay.arena->steps))},
-            {"values", values_of(panel)}};
+            {"events", Json::parse(page_events(replay.arena->steps))}};
 }
 
 /// [step, reward so far], one at each change.
@@ -53,15 +53,12 @@ Json rewards_of(Replay const& replay) {
     return rewards;
 }
 
-Json world_replay_data(Replay const& replay, PanelValues const* panel) {
+Json world_replay_data(Replay const& replay) {
     std::vector<double> x, y;
     for (ReplayStep const& step : replay.steps) {
         x.push_back(shortened(step.x));
         y.push_back(shortened(step.y));
     }
-    Json values = Json::array();   // null: not found
-    if (panel != nullptr)
-        for (double const value : panel->values) values.push_back(std::isnan(value) ? Json{} : Json(shortened(value)));
     return {{"world",
              {{"width", shortened(replay.scene.width)},
               {"height", shortened(replay.scene.height)},
@@ -69,14 +66,19 @@ Json world_replay_data(Replay const& replay, PanelValues const* panel) {
             {"unit", replay.reward_unit},
             {"x", x},
             {"y", y},
-            {"rewards", rewards_of(replay)},
-            {"values", values}};
+            {"rewards", rewards_of(replay)}};
 }
 
 }   // namespace
 
 Json replay_data(Replay const& replay, PanelValues const* panel, bool as_arena) {
-    return as_arena ? arena_replay_data(replay, panel) : world_replay_data(replay, panel);
+    Json data = as_arena ? arena_replay_data(replay) : world_replay_data(replay);
+    data["values"] = Json::array();
+    if (panel == nullptr || panel->values.empty()) return data;
+    auto const to_thousandth = [](double value) { return to_nearest(value, 1000); };
+    data["values"] = as_arena ? values_of(*panel, to_thousandth) : values_of(*panel, shortened);
+    data["window_length"] = panel->window_length;
+    return data;
 }
 
 std::string replay_json(std::vector<Replay> const& replays) {

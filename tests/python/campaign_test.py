@@ -7,6 +7,7 @@ import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
+from typing import Any
 
 import numpy as np
 
@@ -189,6 +190,52 @@ class SeveralTasks(LoreTest):
         self.assertEqual(pixels[10, 10].tolist()[:3], pixels[-10, 10].tolist()[:3])
         self.assertNotEqual(pixels[10, 10].tolist(), pixels[10, -10].tolist(), "the left half is red")
         self.assertEqual(panel.axes[1].get_ylabel(), "value (cos)")
+
+
+@unittest.skipIf(plot is None, "matplotlib is not here")
+class Windows(LoreTest):
+    """A report of a life of 45 steps, whose windows of 20 steps do not divide it, in an arena of nothing."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        steps = "".join(f"source/001,{k},{k},{k % 2},0,0,0,0,0,0\n" for k in range(45))
+        scene = {"width": 45, "height": 45, "walls": [], "doors": [], "balls": [], "balls_at_start": True,
+                 "basket": [0, 0, 1], "basket_lights": [], "switch": [0, 0], "robot_radius": 1}  # fmt: skip
+        self.scene: dict[str, Any] = {
+            "replays": [{"run": "source/001", "signature": "0", "scene": scene}],
+            "panels": [{"figure": "figure5", "knowledge": "kb1", "checksum": "0", "window_length": 20}],
+        }
+        files = {
+            "final.csv": "treatment,run,seed,balls\nsource,1,1,3\n",
+            "replay.csv": "replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected\n" + steps,
+            "values.csv": "figure,knowledge,window,value\nfigure5,kb1,0,-0.5\nfigure5,kb1,1,\n",
+            "scene.json": json.dumps(self.scene),
+        }
+        for name, text in files.items():
+            (self.scratch / name).write_text(text)
+
+    def lines(self) -> list[list[list[float]]]:
+        """Where each window begins and ends along the path: not found, found."""
+        plan = plot.figure5(self.scratch).subfigs[0].axes[0]
+        return [[[p[0, 0], p[-1, 0]] for p in collection.get_segments()] for collection in plan.collections[:2]]
+
+    def test_are_drawn_where_they_were(self) -> None:
+        self.assertEqual(self.lines(), [[[20, 40], [40, 44]], [[0, 20]]])
+        strip = plot.figure5(self.scratch).subfigs[0].axes[1]
+        self.assertEqual(strip.get_xlim(), (0, 45))
+
+    def test_of_lore_1_0_0_have_a_length_that_fits_and_marks_for_those_not_found(self) -> None:
+        del self.scene["panels"][0]["window_length"]
+        (self.scratch / "scene.json").write_text(json.dumps(self.scene))
+        (self.scratch / "values.csv").write_text(
+            "figure,knowledge,window,value\nfigure5,kb1,0,2\nfigure5,kb1,1,-1.0000\n"
+        )
+        self.assertEqual(self.lines(), [[[20, 40], [40, 44]], [[0, 20]]])
+
+    def test_without_length_are_refused(self) -> None:
+        self.scene["panels"][0]["window_length"] = 0
+        (self.scratch / "scene.json").write_text(json.dumps(self.scene))
+        self.expect_damaged(lambda: plot.figure5(self.scratch), self.scratch / "scene.json", "a window without length")
 
 
 @unittest.skipIf(plot is None, "matplotlib is not here")

@@ -28,12 +28,12 @@ struct Replay {
 
 /// What a knowledge base, or the product of several, says about the windows of the first replay: values.csv.
 struct PanelValues {
-    std::string figure;      ///< "figure5" or "figure6"
-    std::string knowledge;   ///< names joined by '*'
-    /// Per window. One that is not found: in an arena -1 of a single base and 0 of a product; in other worlds, whose
-    /// values may be negative, NaN.
-    std::vector<double> values;
-    std::string checksum = {};   ///< of the knowledge bases' files, joined by '*'; tells whether they are still those
+    std::string figure;           ///< "figure5" or "figure6"
+    std::string knowledge;        ///< names joined by '*'
+    std::vector<double> values;   ///< per whole window; NaN: not found, of a product by one of its bases
+    std::string checksum = {};    ///< of the knowledge bases' files, joined by '*'; tells whether they are still those
+    /// [steps]; 0: not known. read_replays takes files of Lore 1.0.0, which do not say it, to have a length that fits.
+    int window_length = 0;
 };
 
 /// What the pictures of trajectories need, as the campaign's step "replay" leaves it in three files: replay.csv,

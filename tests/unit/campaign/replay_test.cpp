@@ -81,8 +81,11 @@ TEST_F(ReplayStepTest, simulates_the_source_run_and_the_best_target_run_and_valu
     EXPECT_EQ(shown.panels[1].knowledge, "kb1*kb1");
     for (std::size_t w = 0; w < 20; ++w) {
         double const value = shown.panels[0].values[w];
-        EXPECT_NEAR(shown.panels[1].values[w], value < 0 ? 0 : value * value, 1e-3);
+        EXPECT_EQ(std::isnan(shown.panels[1].values[w]), std::isnan(value));
+        if (!std::isnan(value)) { EXPECT_NEAR(shown.panels[1].values[w], value * value, 1e-3); }
     }
+    EXPECT_EQ(shown.panels[0].window_length, 20);
+    EXPECT_EQ(shown.panels[1].window_length, 20);
 }
 
 TEST_F(ReplayStepTest, is_done_until_there_is_something_else_to_show) {
@@ -130,6 +133,62 @@ TEST_F(ReplayStepTest, files_that_do_not_belong_together_are_refused) {
     write("c/scene.json", "{\"replays\": [{}]}");
     EXPECT_THROW(read_scenes(directory()), Error);
     EXPECT_EQ(replay_is_due(plan(), directory(), directory()), "scene.json is damaged");
+}
+
+/// A life of so many steps in an arena of nothing, and a panel of that many windows.
+class ReplayFiles : public test::CampaignTest {
+protected:
+    static Replays life_of(int steps, std::vector<double> values, int window_length) {
+        Replay replay{"source/001", "00000000000000aa", "balls", {}, {}, ArenaReplay{}};
+        replay.arena->scene.width = replay.arena->scene.height = 1;
+        replay.arena->scene.basket_lights = {{0, 0}};
+        replay.steps.resize(static_cast<std::size_t>(steps));
+        replay.arena->steps.resize(static_cast<std::size_t>(steps));
+        return {{replay}, {{"figure5", "kb1", std::move(values), "c", window_length}}};
+    }
+    /// What is read of these files.
+    PanelValues panel_of(Replays const& all) const {
+        write_replays(directory(), all);
+        return read_replays(directory()).panels.front();
+    }
+    /// As Lore 1.0.0 wrote them.
+    PanelValues former_panel(int steps, std::string const& knowledge, std::vector<std::string> const& values) const {
+        write_replays(directory(), life_of(steps, {}, 0));
+        std::string table = "figure,knowledge,window,value\n", scene = read(directory().file("scene.json"));
+        for (std::size_t w = 0; w < values.size(); ++w)
+            table += "figure5," + knowledge + "," + std::to_string(w) + "," + values[w] + "\n";
+        write("c/values.csv", table);
+        write("c/scene.json", scene.replace(scene.find("kb1"), 3, knowledge));
+        return read_replays(directory()).panels.front();
+    }
+    static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+};
+
+TEST_F(ReplayFiles, keep_the_length_of_windows_that_does_not_divide_a_life) {
+    EXPECT_EQ(panel_of(life_of(41, {1, 2}, 15)).window_length, 15) << "30 steps, and 11 of no whole window";
+    EXPECT_THROW(panel_of(life_of(41, {1, 2, 3}, 15)), Error);
+}
+
+TEST_F(ReplayFiles, have_an_empty_field_for_a_window_that_is_not_found_and_negative_values_in_arenas) {
+    PanelValues const panel = panel_of(life_of(60, {-1, none, 0}, 20));
+    EXPECT_EQ(read(directory().file("values.csv")),
+              "figure,knowledge,window,value\nfigure5,kb1,0,-1.0000\nfigure5,kb1,1,\nfigure5,kb1,2,0.0000\n");
+    EXPECT_EQ(panel.values[0], -1);
+    EXPECT_TRUE(std::isnan(panel.values[1]));
+    EXPECT_EQ(panel.values[2], 0);
+}
+
+TEST_F(ReplayFiles, of_the_first_release_have_windows_that_fit_and_marks_for_those_not_found) {
+    EXPECT_EQ(former_panel(41, "kb1", {"1", "2"}).window_length, 20) << "the usual length";
+    EXPECT_EQ(former_panel(59, "kb1", {"1"}).window_length, 59);
+    EXPECT_EQ(former_panel(60, "kb1", {"1", "1", "1", "1"}).window_length, 15);
+    std::vector<double> const of_one = former_panel(60, "kb1", {"-1.0000", "0.0000", "-0.5"}).values;
+    EXPECT_TRUE(std::isnan(of_one[0]));
+    EXPECT_EQ(of_one[1], 0);
+    EXPECT_EQ(of_one[2], -0.5);
+    std::vector<double> const product = former_panel(60, "kb1*kb2", {"0.0000", "-1.0000", "2"}).values;
+    EXPECT_TRUE(std::isnan(product[0]));
+    EXPECT_EQ(product[1], -1);
 }
 
 TEST_F(ReplayStepTest, simulates_runs_in_another_world) {

@@ -119,9 +119,13 @@ TEST_F(Report, says_how_much_of_the_policys_lead_a_base_has) {
 }
 
 TEST_F(Report, of_the_published_tables_is_the_published_one) {
-    auto const without_origin = [](std::string page) {   // the line that names the program that made it
+    // But for the line that names the program that made it, and its scripts.
+    auto const shown = [](std::string page) {
         std::size_t const line = page.find("<p>Runs: Lore");
-        return line == std::string::npos ? page : page.erase(line, page.find('\n', line) - line);
+        if (line != std::string::npos) page.erase(line, page.find('\n', line) - line);
+        for (std::size_t script = 0; (script = page.find("<script", script)) != std::string::npos;)
+            page.erase(script, page.find("</script>", script) - script);
+        return page;
     };
     std::vector<std::filesystem::path> published;
     for (auto const& entry : std::filesystem::directory_iterator{LORE_SOURCE_DIR "/docs/results"})
@@ -136,7 +140,7 @@ TEST_F(Report, of_the_published_tables_is_the_published_one) {
             EXPECT_EQ(made(file, name), read(kept / file)) << name << '/' << file;
         std::string const page = made("report.html", name);
         EXPECT_FALSE(page.empty());
-        if (name == "paper") { EXPECT_EQ(without_origin(page), without_origin(read(kept / "report.html"))); }
+        if (name == "paper") { EXPECT_EQ(shown(page), shown(read(kept / "report.html"))); }
         for (auto const& entry : std::filesystem::directory_iterator{kept}) {
             std::string const file = entry.path().filename();
             if (file.ends_with(".svg")) {
@@ -268,4 +272,29 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     EXPECT_NE(page.find("[39,-9.75]"), std::string::npos) << "the reward so far";
     EXPECT_NE(page.find("encodeURIComponent(scene)"), std::string::npos) << "the script for worlds";
     EXPECT_EQ(page.find("balls"), std::string::npos);
+}
+
+TEST_F(Report, shows_whole_windows_of_a_life_that_their_length_does_not_divide) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    Replay replay{"source/001", "00000000000000aa", "balls", {}, {}, ArenaReplay{}};
+    replay.arena->scene.width = replay.arena->scene.height = 45;
+    replay.arena->scene.basket_lights = {{0, 0}};
+    replay.arena->steps.resize(45);
+    for (int k = 0; k < 45; ++k) replay.steps.push_back({static_cast<float>(k), static_cast<float>(k % 2), 0});
+    double const none = std::numeric_limits<double>::quiet_NaN();
+    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, none}, "c", 20}}});
+    write_report(plan(), directory());
+    EXPECT_NE(made("report.html").find("\"values\":[-0.5,null],\"window_length\":20"), std::string::npos);
+    // Of the path, window by window: the line of the first in its color, the others in gray.
+    std::string const figure = made("figures/figure5.svg");
+    auto const lines = [&](std::string const& stroke) {
+        int count = 0;
+        for (std::size_t at = figure.find("<polyline"); at != std::string::npos; at = figure.find("<polyline", at + 1))
+            count +=
+                figure.substr(at, figure.find("/>", at) - at).find("stroke=\"" + stroke + "\"") != std::string::npos;
+        return count;
+    };
+    EXPECT_EQ(lines("#4d4d4d"), 1) << "a negative value is found, too";
+    EXPECT_EQ(lines("#8c8c8c"), 2);
+    EXPECT_NE(figure.find("not in the knowledge base<"), std::string::npos) << "at no value";
 }

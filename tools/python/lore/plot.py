@@ -216,6 +216,7 @@ def _panels(report: Report, figure_name: str) -> Figure:
     bases = list(dict.fromkeys(values["knowledge"].tolist()))
     figure = Figure(figsize=(8.5, 7.4 * max(1, len(bases))), layout="constrained")
     parts = figure.subfigures(len(bases), 1, squeeze=False)[:, 0] if bases else []
+    lengths = report.window_lengths
     for place, (part, base) in enumerate(zip(parts, bases)):
         label = " \u00d7 ".join(names.get(one, one) for one in base.split("*"))
         title = (
@@ -223,26 +224,36 @@ def _panels(report: Report, figure_name: str) -> Figure:
             if "*" not in base
             else f"product of the values from {label}"
         )
-        _draw_panel(part, scenes[name], steps, values.where(knowledge=base)["value"], base.count("*") + 1, title)
+        shown, length = values.where(knowledge=base)["value"], lengths.get((figure_name, base))
+        if length is None:
+            shown, length = _of_lore_1_0_0(shown, len(steps), isinstance(scenes[name], Scene), "*" in base)
+        _draw_panel(part, scenes[name], steps, shown, length, base.count("*") + 1, title)
     return figure
 
 
-def _range(values: NDArray[np.float64], arena: bool) -> tuple[float, float]:
-    """Of the colors: from 0 in an arena, where no value is negative."""
+def _of_lore_1_0_0(
+    values: NDArray[np.float64], steps: int, arena: bool, product: bool
+) -> tuple[NDArray[np.float64], int]:
+    """The values with nan for what is not found, and the length of windows: the usual one, if as many whole ones fit
+    into the steps, else the longest with which they do."""
+    length = 20 if steps // 20 == len(values) else max(1, steps // len(values))
+    return np.where(values == (0 if product else -1), np.nan, values) if arena else values, length
+
+
+def _range(values: NDArray[np.float64]) -> tuple[float, float]:
+    """Of the colors: with 0."""
     known = values[np.isfinite(values)]
-    least, most = (0.0 if arena else known.min(initial=0.0)), known.max(initial=0.0)
+    least, most = known.min(initial=0.0), known.max(initial=0.0)
     return least, (most if most > least else least + 1)
 
 
-def _draw_panel(part: Any, scene: Scene | WorldScene, steps: Table, values: NDArray[np.float64], factors: int,
-                title: str) -> None:  # fmt: skip
-    """The plan with the trajectory above, the values over time below."""
+def _draw_panel(part: Any, scene: Scene | WorldScene, steps: Table, values: NDArray[np.float64], length: int,
+                factors: int, title: str) -> None:  # fmt: skip
+    """The plan with the trajectory above, the values over time below. `length`: of a window [steps]."""
     product, arena = factors > 1, isinstance(scene, Scene)
-    if isinstance(scene, Scene):  # as the report has it: -1, or 0 in a product, is not found
-        found, unit = values > 0 if product else values >= 0, "balls"
-    else:
-        found, unit = np.isfinite(values), scene.reward_unit
-    norm = Normalize(*_range(values, arena))
+    unit = "balls" if isinstance(scene, Scene) else scene.reward_unit
+    found = np.isfinite(values)
+    norm = Normalize(*_range(values))
     what = f"product of the values ({unit}$^{factors}$)" if product else f"value ({unit})"
     plan, strip = part.subplots(2, 1, gridspec_kw={"height_ratios": [3.3, 1]})
     plan.set_title(title, loc="left", fontsize=11)
@@ -252,18 +263,18 @@ def _draw_panel(part: Any, scene: Scene | WorldScene, steps: Table, values: NDAr
         _draw_legend(plan, scene)
     else:
         _draw_world(plan, scene, steps)
-    length = -(-len(steps) // len(values))  # [steps] a window, the last may be incomplete
     places = np.stack([steps["x"], steps["y"]], axis=1)
     pieces = [places[at : at + length + 1] for at in range(0, len(places) - 1, length)]
-    known = np.array([i < len(found) and bool(found[i]) for i in range(len(pieces))])
+    known = np.array([i < len(found) and bool(found[i]) for i in range(len(pieces))])  # not after the last whole window
     _draw_lines(plan, [p for p, k in zip(pieces, known) if not k], color=_GRAY, linewidths=0.8)
     colored = [p for p, k in zip(pieces, known) if k]
     _draw_lines(plan, colored, color="#4d4d4d", linewidths=2.6)
     lines = _draw_lines(plan, colored, array=values[: len(pieces)][known[: len(values)]], cmap=VALUE_COLORS, norm=norm,
                         linewidths=1.7)  # fmt: skip
     part.colorbar(lines, ax=plan, label=what, shrink=0.8)
-    not_found = (0.0 if product else -1.0) if arena else float(norm.vmin)
+    not_found = (0.0 if product else -1.0) if arena and norm.vmin == 0 else float(norm.vmin)
     _draw_strip(strip, values, found, length, not_found, max(norm.vmax, 1.0) if arena else float(norm.vmax), what)
+    strip.set_xlim(0, max(len(steps), len(values) * length))
 
 
 def _draw_lines(axes: Any, lines: list[NDArray[np.float64]], **style: Any) -> LineCollection:
@@ -354,7 +365,7 @@ def _draw_strip(axes: Any, values: NDArray[np.float64], found: NDArray[np.bool_]
     _draw_lines(axes, missing, color=_GRAY, linewidths=4)
     least = min(not_found, 0)
     room = 0.06 * (most - least)
-    axes.set(xlim=(0, edges[-1]), ylim=(least - room, most + room), xlabel="time (steps)", ylabel=what)
+    axes.set(ylim=(least - room, most + room), xlabel="time (steps)", ylabel=what)
     axes.grid(axis="y", color="#dddddd", linewidth=0.7)
 
 

@@ -172,9 +172,25 @@ class Report:
 
     @property
     def values(self) -> Table:
-        """The values of figures 5 and 6, a row a window: figure, knowledge, window, value. One that is not found is -1,
-        0 of a product; in other worlds than arenas nan."""
+        """The values of figures 5 and 6, a row a whole window: figure, knowledge, window, value. One that is not found is
+        nan; in arenas of Lore 1.0.0, whose panels are not among window_lengths, -1, or 0 of a product."""
         return self._with_gaps("values.csv", ("value",), figure="text", knowledge="text", window="int")
+
+    @property
+    def window_lengths(self) -> dict[tuple[str, str], int]:
+        """Steps of a window, by figure and knowledge. Lore 1.0.0 did not write them."""
+        document = read_json(self._file("scene.json"))
+        try:
+            lengths = {
+                (str(panel["figure"]), str(panel["knowledge"])): int(panel["window_length"])
+                for panel in document["panels"]
+                if "window_length" in panel
+            }
+            if any(length < 1 for length in lengths.values()):
+                raise ValueError("a window without length")
+        except (KeyError, TypeError, ValueError) as error:
+            raise Damaged(self._file("scene.json"), f"it does not describe panels: {error!r}") from error
+        return lengths
 
     @property
     def scenes(self) -> dict[str, Scene | WorldScene]:
