@@ -173,6 +173,20 @@ class SeveralTasks(LoreTest):
         self.expect_damaged(lambda: report.scenes, self.report / "scene.json", "a world without extent")
 
     @unittest.skipIf(plot is None, "matplotlib is not here")
+    def test_have_no_curves_of_other_units_on_one_axis(self) -> None:
+        drawn = plot.figure3(self.report).axes[0]
+        self.assertEqual(drawn.get_ylabel(), "reward [balls] (mean of best-of-runs)")
+        self.assertEqual([line.get_label() for line in drawn.lines], ["arena_from_none (n = 1)"])
+
+    def test_may_have_units_with_commas_and_quotes(self) -> None:
+        for name in ("final.csv", "matrix.csv"):
+            whole = (self.report / name).read_text()
+            (self.report / name).write_text(whole.replace(",cos", ',"5"" steps, forward"'))
+        report = lore.Report(self.report)
+        self.assertEqual(report.final["unit"].tolist()[1], '5" steps, forward')
+        self.assertEqual(report.matrix["unit"].tolist()[1], '5" steps, forward')
+
+    @unittest.skipIf(plot is None, "matplotlib is not here")
     def test_have_figures_by_task_and_the_path_over_the_scene_of_a_world(self) -> None:
         if shutil.which("rsvg-convert") is None:
             with self.assertRaisesRegex(OSError, "no program rsvg-convert"):

@@ -40,7 +40,8 @@ _STEPS_BETWEEN_ROBOTS = 50
 def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     """Mean reward of the best-of-run by generation, a line a treatment with its 95 % bootstrap band.
 
-    `task`: one of Report.tasks, whose treatments are shown; rewards of several tasks share no axis.
+    `task`: one of Report.tasks, whose treatments are shown; rewards of several tasks share no axis. Without it
+    treatments whose reward has another unit than the first target task's are left out.
     """
     report = _report(report)
     curves, treatments, names = report.curves, _targets(report, task), report.labels
@@ -52,7 +53,7 @@ def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     dashed = {"color": _SOURCE_COLOR, "dashes": (5, 3)}
     for treatment, style in [*((source, dashed) for source in sources), *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
-        if len(rows) == 0:
+        if len(rows) == 0 or (task is None and not _has_unit(report, treatment)):
             continue
         shown = rows["generation"] <= last
         at = rows["generation"][shown]
@@ -164,6 +165,13 @@ def _targets(report: Report, task: str | None) -> list[str]:
     ordered = [name for name in report.labels if name in there]
     shown = report.tasks[task] if task is not None else [name for name in there if name not in report.sources]
     return [name for name in dict.fromkeys([*ordered, *there]) if name in shown]
+
+
+def _has_unit(report: Report, treatment: str) -> bool:
+    """Whether its rewards have the unit of the (first) target task: others share no axis with them."""
+    if report.reward_word == "balls":
+        return True
+    return set(report.final.where(treatment=treatment)["unit"].tolist()) <= {report.reward_unit}
 
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:

@@ -1,6 +1,7 @@
 """Tables: named columns of equal length, and the CSV files they come from."""
 from __future__ import annotations
 
+import csv
 import gzip
 import zlib
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Sequence
@@ -73,7 +74,7 @@ def stacked(tables: Sequence[Table]) -> Table:
 
 
 def read_table(path: FilePath, schema: Schema | None = None, optional: Iterable[str] = ()) -> Table:
-    """A CSV file with a header and plain fields, as Lore writes them; also gzip-compressed.
+    """A CSV file with a header, as Lore writes it; also gzip-compressed.
 
     Columns of `schema` must be there, but for the `optional` ones; others are guessed. Raises Damaged (no header, a
     row of another length than the header, a field that its column cannot hold), FileNotFoundError.
@@ -102,13 +103,13 @@ def parse_table(text: str, path: FilePath, schema: Schema, optional: Iterable[st
     if not text.endswith("\n"):
         raise Damaged(path, "its last line was cut")
     header, *lines = text[:-1].replace("\r\n", "\n").split("\n")
-    names = header.split(",")
+    names = _fields(header, path)
     if len(set(names)) != len(names):
         raise Damaged(path, "two columns have one name")
     for name in schema:
         if name not in names and name not in optional:
             raise Damaged(path, f"there is no column '{name}'")
-    rows = [line.split(",") for line in lines]
+    rows = [_fields(line, path) for line in lines]
     for number, row in enumerate(rows, 2):
         if len(row) != len(names):
             raise Damaged(path, f"line {number} has {len(row)} columns, its header {len(names)}")
@@ -116,6 +117,16 @@ def parse_table(text: str, path: FilePath, schema: Schema, optional: Iterable[st
     return Table(
         {name: _column(name, of_name, schema.get(name, "guess"), path) for name, of_name in zip(names, fields)}
     )
+
+
+def _fields(line: str, path: FilePath) -> list[str]:
+    """Those between quotes without them (RFC 4180); no field has a line end."""
+    if '"' not in line:
+        return line.split(",")
+    try:
+        return next(csv.reader([line]))
+    except csv.Error as error:
+        raise Damaged(path, f"'{line[:40]}' is no line of a table: {error}") from error
 
 
 def _whole(fields: Sequence[str]) -> NDArray[np.int64]:
