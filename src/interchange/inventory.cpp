@@ -1,7 +1,10 @@
 #include "inventory.h"
 
+#include <lore/core/directory.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/core/names.h>
+#include <lore/core/utf8.h>
 #include <lore/experiment/config.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/run_world.h>
@@ -22,18 +25,11 @@ constexpr auto part_names = names_for<PackPart>("individuals", "checkpoints", "b
 
 std::string_view file_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
-/// Whether all bytes make UTF-8 characters without control characters: such a name is the same in every archive.
+/// Whether all of it is UTF-8 without control characters: such a name is the same in every archive.
 bool is_plain_text(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        auto const byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-        std::size_t const length = byte(i) < 0x80 ? 1 : byte(i) >= 0xf0 ? 4 : byte(i) >= 0xe0 ? 3 : 2;
-        if (length == 1 && (byte(i) < 0x20 || byte(i) == 0x7f)) return false;
-        if (length > 1 && (byte(i) < 0xc2 || byte(i) > 0xf4)) return false;
-        for (std::size_t k = 1; k < length; ++k)
-            if ((byte(i + k) & 0xc0) != 0x80) return false;
-        i += length;
-    }
-    return !text.empty();
+    bool const empty = text.empty();
+    while (std::size_t const length = printable_bytes(text)) text.remove_prefix(length);
+    return text.empty() && !empty;
 }
 
 /// A file that the campaign is made from.
@@ -78,7 +74,10 @@ std::vector<Input> inputs_of(CampaignPlan const& plan) {
 }
 
 bool is_executable(std::string const& path) {
-    return (fs::status(path).permissions() & fs::perms::owner_exec) != fs::perms::none;
+    std::error_code failed;
+    fs::perms const permissions = fs::status(path, failed).permissions();
+    if (failed) throw file_error("read", path, failed.value());
+    return (permissions & fs::perms::owner_exec) != fs::perms::none;
 }
 
 void add_summed(std::string place, std::string const& source, std::vector<PackPart> const& leave_out,
@@ -124,18 +123,17 @@ std::optional<PackPart> part_of(std::string_view path) {
 Inventory take_inventory(CampaignPlan const& plan, CampaignDirectory const& directory,
                          std::vector<PackPart> const& leave_out, BetweenPieces const& between) {
     Inventory inventory;
-    fs::path const root{directory.path()};
-    for (auto const& entry : fs::recursive_directory_iterator{root}) {
-        std::string place = entry.path().lexically_relative(root).generic_string();
+    for (DirectoryEntry const& entry : entries_below(directory.path())) {
+        std::string place = fs::path{entry.path}.lexically_relative(directory.path()).generic_string();
         if (place == crate_file || place == sums_file || (place + "/").starts_with(inputs_folder)) continue;
         if (is_transient(place)) continue;
-        if (entry.is_symlink())
-            throw Error(fmt::format("cannot pack {}", entry.path().string()),
-                        "it is a link, and an archive holds files", "Put the file in its place.");
-        if (entry.is_directory()) continue;
-        if (!entry.is_regular_file())
-            throw Error(fmt::format("cannot pack {}", entry.path().string()), "it is no regular file", "Remove it.");
-        add_summed(std::move(place), entry.path().string(), leave_out, between, inventory);
+        if (entry.type == fs::file_type::symlink)
+            throw Error(fmt::format("cannot pack {}", entry.path), "it is a link, and an archive holds files",
+                        "Put the file in its place.");
+        if (entry.type == fs::file_type::directory) continue;
+        if (entry.type != fs::file_type::regular)
+            throw Error(fmt::format("cannot pack {}", entry.path), "it is no regular file", "Remove it.");
+        add_summed(std::move(place), entry.path, leave_out, between, inventory);
     }
     std::map<std::string, std::string> inputs;   // by place: many treatments share them
     for (Input const& input : inputs_of(plan)) inputs[input.place.string()] = input.source;

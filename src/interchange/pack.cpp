@@ -6,6 +6,7 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/campaign/state.h>
+#include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 
 /// The files would change while they are read.
 void refuse_work_in_progress(CampaignPlan const& plan, CampaignDirectory const& directory) {
-    if (!fs::is_directory(directory.path()))
+    std::error_code ignored;   // what cannot be looked at is as good as not there
+    if (!fs::is_directory(directory.path(), ignored))
         throw UsageError(fmt::format("there is nothing to pack in {}", directory.path()), "no such directory",
                          "Start with 'lore-campaign run', or check --dir.");
     for (Step const& step : steps_of(plan))
@@ -79,16 +81,30 @@ bool lies_in(std::string const& path, std::string const& directory) {
     return !relative.empty() && *relative.begin() != "..";
 }
 
+bool are_the_same(std::string const& file, std::string const& other) {
+    std::error_code failed;
+    bool const same = fs::equivalent(file, other, failed);
+    if (failed) throw file_error("read", other, failed.value());
+    return same;
+}
+
 /// What a former description has in inputs/ and this one has not; never a file that this one is made from.
 void remove_former_inputs(CampaignDirectory const& directory, std::vector<PackedFile> const& files) {
-    std::vector<fs::path> former;
-    for (auto const& entry : fs::recursive_directory_iterator{directory.file(inputs_folder)}) {
+    for (DirectoryEntry const& entry : entries_below(directory.file(inputs_folder))) {
         auto const needed = [&](PackedFile const& file) {
-            return directory.file(file.path) == entry.path().string() || fs::equivalent(file.source, entry.path());
+            return directory.file(file.path) == entry.path || are_the_same(file.source, entry.path);
         };
-        if (!entry.is_directory() && std::none_of(files.begin(), files.end(), needed)) former.push_back(entry.path());
+        if (entry.type != fs::file_type::directory && std::none_of(files.begin(), files.end(), needed))
+            remove_file(entry.path);
     }
-    for (fs::path const& file : former) fs::remove(file);
+}
+
+void copy_permissions(std::string const& from, std::string const& to) {
+    std::error_code failed;
+    fs::perms const permissions = fs::status(from, failed).permissions();
+    if (failed) throw file_error("read", from, failed.value());
+    fs::permissions(to, permissions, failed);
+    if (failed) throw file_error("write", to, failed.value());
 }
 
 }   // namespace
@@ -117,7 +133,7 @@ PackCounts describe_campaign(CampaignPlan const& plan, CampaignDirectory const& 
         if (!file.path.starts_with(inputs_folder)) continue;
         make_directory(fs::path{directory.file(file.path)}.parent_path().string());
         write_file_atomically(directory.file(file.path), read_file(file.source));
-        if (file.executable) fs::permissions(directory.file(file.path), fs::status(file.source).permissions());
+        if (file.executable) copy_permissions(file.source, directory.file(file.path));
     }
     remove_former_inputs(directory, pack.inventory.files);
     write_file_atomically(directory.file(crate_file), std::string_view{pack.crate});

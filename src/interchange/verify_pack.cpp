@@ -4,6 +4,7 @@
 #include "crate_reading.h"
 #include "inventory.h"
 
+#include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/input_file.h>
@@ -136,16 +137,15 @@ Found look_at_archive(std::string const& path, Pulse const& pulse) {
 
 Found look_at_directory(std::string const& path, Pulse const& pulse) {
     Found found;
-    for (auto const& entry : fs::recursive_directory_iterator{path}) {
-        std::string const name = entry.path().lexically_relative(path).generic_string();
+    for (DirectoryEntry const& entry : entries_below(path)) {
+        std::string const name = fs::path{entry.path}.lexically_relative(path).generic_string();
         if (is_transient(name)) continue;
-        if (entry.is_symlink())
+        if (entry.type == fs::file_type::symlink)
             found.defects.push_back(fmt::format("{}: it is a link, and only files are looked at", name));
-        else if (entry.is_regular_file()) {
-            found.files.emplace(name, read_in_pieces(entry.path().string(), pulse));
-            if (name == crate_file || name == sums_file)
-                found.texts[name] = read_text(entry.path().string(), most_description);
-        } else if (!entry.is_directory())
+        else if (entry.type == fs::file_type::regular) {
+            found.files.emplace(name, read_in_pieces(entry.path, pulse));
+            if (name == crate_file || name == sums_file) found.texts[name] = read_text(entry.path, most_description);
+        } else if (entry.type != fs::file_type::directory)
             found.defects.push_back(fmt::format("{}: it is a special file, and only files are looked at", name));
     }
     return found;
@@ -222,7 +222,10 @@ bool is_of_lore(std::string_view path) {
 /// Of the system's directory for them; goes away with all that is in it.
 class TemporaryDirectory {
 public:
-    TemporaryDirectory() : path_((fs::temp_directory_path() / "lore-verify-XXXXXX").string()) {
+    TemporaryDirectory() {
+        std::error_code failed;
+        path_ = (fs::temp_directory_path(failed) / "lore-verify-XXXXXX").string();
+        if (failed) throw file_error("write", path_, failed.value());
         if (::mkdtemp(path_.data()) == nullptr) throw file_error("write", path_, errno);
     }
     ~TemporaryDirectory() {
@@ -296,7 +299,8 @@ std::set<std::string> readable(CrateDescription const& crate, Found const& found
 }   // namespace
 
 PackVerdict verify_pack(std::string const& path, Pulse const& pulse) {
-    bool const is_directory = fs::is_directory(path);
+    std::error_code ignored;   // what cannot be looked at is no archive either, which is told
+    bool const is_directory = fs::is_directory(path, ignored);
     Found const found = is_directory ? look_at_directory(path, pulse) : look_at_archive(path, pulse);
     PackVerdict verdict;
     verdict.defects = found.defects;

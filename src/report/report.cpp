@@ -5,6 +5,7 @@
 #include "panels.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/figure/svg.h>
@@ -82,13 +83,10 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings 
 
 void write_figures(CampaignDirectory const& into, Figures const& figures) {
     // Figures of a former report that this one does not have would pass for its own.
-    std::vector<std::filesystem::path> former;
-    for (auto const& entry : std::filesystem::directory_iterator{into.file("figures")}) {
-        std::string const name = entry.path().stem().string();
-        if ((name.starts_with("figure") || name == "matrix") && !figures.contains(name)) former.push_back(entry.path());
+    for (DirectoryEntry const& entry : entries_in(into.file("figures"))) {
+        std::string const name = std::filesystem::path{entry.path}.stem().string();
+        if ((name.starts_with("figure") || name == "matrix") && !figures.contains(name)) remove_file(entry.path);
     }
-    std::error_code ignored;
-    for (std::filesystem::path const& file : former) std::filesystem::remove(file, ignored);
     for (auto const& [name, svg] : figures) {
         write_text(into, fmt::format("figures/{}.svg", name), svg);
         write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
@@ -97,16 +95,14 @@ void write_figures(CampaignDirectory const& into, Figures const& figures) {
 
 /// A table of a former campaign's file that had pools would pass for this one's.
 void write_pools(CampaignPlan const& plan, CampaignDirectory const& into, std::vector<Comparison> const& planned) {
-    std::error_code ignored;   // it may not be there
     if (!plan.pools.empty()) write_text(into, "pools.csv", pools_csv(planned));
-    else std::filesystem::remove(into.file("pools.csv"), ignored);
+    else remove_file(into.file("pools.csv"));
 }
 
 /// Likewise.
 void write_matrix(CampaignDirectory const& into, std::vector<MatrixField> const& fields) {
-    std::error_code ignored;   // it may not be there
     if (!fields.empty()) write_text(into, "matrix.csv", matrix_csv(fields));
-    else std::filesystem::remove(into.file("matrix.csv"), ignored);
+    else remove_file(into.file("matrix.csv"));
 }
 
 }   // namespace
@@ -120,8 +116,9 @@ std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
 }
 
 std::string write_report(CampaignPlan const& given, CampaignDirectory const& from, CampaignDirectory const& into) {
-    bool const has_runs = std::filesystem::exists(from.file("runs"));
-    if (!has_runs && !std::filesystem::exists(from.file("final.csv")))
+    std::error_code ignored;   // what cannot be looked at is as good as not there
+    bool const has_runs = std::filesystem::exists(from.file("runs"), ignored);
+    if (!has_runs && !std::filesystem::exists(from.file("final.csv"), ignored))
         throw UsageError(fmt::format("there is nothing to report in {}", from.path()), "neither runs nor a final.csv",
                          "Start with 'lore-campaign run', or check --dir.");
     make_directory(into.file("figures"));

@@ -2,6 +2,7 @@
 
 #include <lore/campaign/board.h>
 #include <lore/core/progress.h>
+#include <lore/core/utf8.h>
 #include <lore/world/reward_text.h>
 
 #include <algorithm>
@@ -12,21 +13,6 @@
 namespace lore {
 
 namespace {
-
-/// Bytes of the UTF-8 character at the start of `text` that a terminal may show; 0 if it is none.
-std::size_t shown_bytes(std::string_view text) {
-    auto const byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-    if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
-    std::size_t const length = byte(0) >= 0xf5   ? 0
-                               : byte(0) >= 0xf0 ? 4
-                               : byte(0) >= 0xe0 ? 3
-                               : byte(0) >= 0xc2 ? 2
-                                                 : 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    bool const control = byte(0) == 0xc2 && byte(1) < 0xa0;
-    return control ? 0 : length;
-}
 
 std::string run_line(Step const& step, StepState const& state) {
     if (state.generations == 0) return fmt::format("  {:<22} at work", step.name);
@@ -56,7 +42,7 @@ std::string treatment_line(TreatmentFacts const& facts) {
 std::string harmless(std::string_view text) {
     std::string out;
     while (!text.empty()) {
-        std::size_t const length = shown_bytes(text);
+        std::size_t const length = printable_bytes(text);
         if (length == 0) out += '?';
         else out += text.substr(0, length);
         text.remove_prefix(std::max<std::size_t>(1, length));

@@ -17,8 +17,9 @@ namespace fs = std::filesystem;
 TEST(SafePath, leads_nowhere_but_down) {
     for (char const* good : {"a", "a/b.csv", "runs/kb1/001/manifest.json", "...", "a b", "100%", "\xc3\xa9t\xc3\xa9"})
         EXPECT_TRUE(is_safe_path(good)) << good;
-    for (char const* bad : {"", "/", "/etc/passwd", ".", "..", "../a", "a/..", "a/../b", "a//b", "a/", "./a", "a/./b",
-                            "a\nb", "a\x7f", "a\xff", "\xc3", "a\x1b[2J"})
+    for (char const* bad : {"",       "/",    "/etc/passwd", ".",         "..",           "../a",        "a/..",
+                            "a/../b", "a//b", "a/",          "./a",       "a/./b",        "a\nb",        "a\x7f",
+                            "a\xff",  "\xc3", "a\x1b[2J",    "a\xc2\x9b", "\xe0\x80\x80", "\xed\xa0\x80"})
         EXPECT_FALSE(is_safe_path(bad)) << bad;
     EXPECT_FALSE(is_safe_path(std::string_view{"a\0b", 3}));
 }

@@ -1,0 +1,28 @@
+#include <lore/core/utf8.h>
+
+#include <gtest/gtest.h>
+
+using namespace lore;
+
+TEST(Utf8, characters_have_one_to_four_bytes) {
+    EXPECT_EQ(printable_bytes("ab"), 1u);
+    EXPECT_EQ(printable_bytes("\xc3\xa4 "), 2u) << "U+00E4";
+    EXPECT_EQ(printable_bytes("\xc2\xa0"), 2u) << "U+00A0";
+    EXPECT_EQ(printable_bytes("\xe0\xa0\x80"), 3u) << "U+0800";
+    EXPECT_EQ(printable_bytes("\xed\x9f\xbf"), 3u) << "U+D7FF";
+    EXPECT_EQ(printable_bytes("\xee\x80\x80"), 3u) << "U+E000";
+    EXPECT_EQ(printable_bytes("\xf0\x90\x80\x80"), 4u) << "U+10000";
+    EXPECT_EQ(printable_bytes("\xf4\x8f\xbf\xbf"), 4u) << "U+10FFFF";
+}
+
+TEST(Utf8, is_not_what_is_cut_too_long_a_surrogate_or_beyond_the_last_character) {
+    for (char const* text : {"", "\x80", "\xc3", "\xc3z", "\xe2\x82", "\xe2\x82z", "\xf0\x90\x80", "\xc0\x80",
+                             "\xc1\xbf", "\xe0\x80\x80", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf", "\xed\xa0\x80",
+                             "\xed\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff"})
+        EXPECT_EQ(printable_bytes(text), 0u) << text;
+}
+
+TEST(Utf8, has_control_characters_which_nobody_can_see) {
+    for (char const* text : {"\x01", "\n", "\x1b[", "\x7f", "\xc2\x80", "\xc2\x9b", "\xc2\x9f"})
+        EXPECT_EQ(printable_bytes(text), 0u) << text;
+}
