@@ -17,6 +17,27 @@ std::string_view trimmed(std::string_view field) {
     return field;
 }
 
+/// Of the part between quotes, and the spaces before it, at the start of the text [bytes]; 0 if it does not start so.
+std::size_t quoted_length(std::string_view text) {
+    std::size_t const start = text.find_first_not_of(' ');
+    if (start == std::string_view::npos || text[start] != '"') return 0;
+    for (std::size_t at = start + 1; (at = text.find('"', at)) != std::string_view::npos; at += 2)
+        if (at + 1 == text.size() || text[at + 1] != '"') return at + 1;
+    return 0;   // it has no end, and is text
+}
+
+/// A field without its quotes. What lies between them gets shorter in place.
+std::string_view unquoted(std::string_view field, std::string& text) {
+    if (field.size() < 2 || quoted_length(field) != field.size()) return field;
+    char* const begin = text.data() + (field.data() - text.data()) + 1;
+    char* end = begin;
+    for (std::size_t i = 1; i + 1 < field.size(); ++i) {
+        *end++ = field[i];
+        if (field[i] == '"') ++i;
+    }
+    return {begin, static_cast<std::size_t>(end - begin)};
+}
+
 Error error_of(std::string const& path, std::string_view reason, std::string_view remedy) {
     return Error(fmt::format("cannot read {}", path), reason, remedy);
 }
@@ -50,7 +71,7 @@ void read_lines(std::string const& path, std::string_view text, std::string_view
 
 std::optional<std::string_view> CsvFields::next() {
     if (ended_) return std::nullopt;
-    std::size_t const comma = rest_.find(',');
+    std::size_t const comma = rest_.find(',', quoted_length(rest_));
     std::string_view const field = rest_.substr(0, comma);
     ended_ = comma == std::string_view::npos;
     if (!ended_) rest_.remove_prefix(comma + 1);
@@ -58,14 +79,25 @@ std::optional<std::string_view> CsvFields::next() {
 }
 
 CsvTable CsvTable::read(std::string const& path, std::string_view remedy) {
-    return CsvTable{path, read_text(path), remedy};
+    return CsvTable{path, read_text(path, most_data), remedy};
+}
+
+std::string csv_field(std::string_view text) {
+    if (text.find_first_of(",\"") == std::string_view::npos && trimmed(text).size() == text.size())
+        return std::string{text};
+    std::string field{'"'};
+    for (char const c : text) field.append(c == '"' ? 2 : 1, c);
+    return field + '"';
 }
 
 CsvTable::CsvTable(std::string path, std::string text, std::string_view remedy)
-    : path_(std::move(path)), remedy_(remedy), text_(std::make_shared<std::string const>(std::move(text))) {
+    : path_(std::move(path)), remedy_(remedy) {
+    auto const kept = std::make_shared<std::string>(std::move(text));
+    text_ = kept;
     read_lines(
-        path_, *text_, remedy_, [&](std::string_view name) { names_.push_back(name); },
-        [&](std::string_view field) { fields_.push_back(field); }, [&](int number) { lines_.push_back(number); });
+        path_, *kept, remedy_, [&](std::string_view name) { names_.push_back(unquoted(name, *kept)); },
+        [&](std::string_view field) { fields_.push_back(unquoted(field, *kept)); },
+        [&](int number) { lines_.push_back(number); });
 }
 
 bool CsvTable::has(std::string_view name) const {

@@ -26,11 +26,15 @@ struct CsvColumn {
 enum class Digits : std::uint8_t { shortest, four };
 inline constexpr Digits rounded = Digits::four;   ///< to 4 decimals
 
-/// The column of a member: text, a whole number, or a number in its shortest form or rounded.
+/// The column of a member: text (csv_field), a whole number, or a number in its shortest form or rounded.
 template <class Row, class Value>
 CsvColumn<Row> csv_column(std::string name, Value Row::*member, Digits digits = Digits::shortest) {
     return {std::move(name),
             [=](std::string& text, Row const& row) {
+                if constexpr (std::is_same_v<Value, std::string>) {
+                    text += csv_field(row.*member);
+                    return;
+                }
                 if constexpr (std::is_floating_point_v<Value>)
                     if (digits == Digits::four) {
                         fmt::format_to(std::back_inserter(text), "{:.4f}", row.*member);

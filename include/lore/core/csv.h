@@ -13,8 +13,8 @@
 
 namespace lore {
 
-/// The fields of one line of CSV, one after the other, as they stand between the commas. A view: valid as long as the
-/// line.
+/// The fields of one line of CSV, one after the other, as they stand between the commas, with the quotes of those that
+/// have some. A view: valid as long as the line.
 class CsvFields {
 public:
     explicit CsvFields(std::string_view line) : rest_(line) {}
@@ -26,13 +26,17 @@ private:
     bool ended_ = false;
 };
 
-/// A CSV text with a header and plain fields (no quotes: names and numbers are all that Lore writes), read strictly.
+/// The text as a field of CSV: between quotes as RFC 4180 has them if it has commas, quotes or outer spaces, else as it
+/// is. Precondition: it has no line end.
+std::string csv_field(std::string_view text);
+
+/// A CSV text with a header, read strictly. Fields may stand between quotes (RFC 4180), but have no line ends.
 ///
 /// Spaces around a field and a carriage return at a line's end do not count, nor do empty lines. Whatever is wrong
 /// throws Error, which names the file, with line and column where there is one, and ends with `remedy`.
 class CsvTable {
 public:
-    /// Throws Error: no such file, not readable.
+    /// Throws Error: no such file, not readable, longer than most_data.
     static CsvTable read(std::string const& path, std::string_view remedy);
     /// `path` is what errors call the text. Throws Error: no header, or a row of another length than the header.
     CsvTable(std::string path, std::string text, std::string_view remedy);

@@ -1,10 +1,13 @@
 #include <lore/core/csv.h>
 
 #include "support/complaint.h"
+#include "support/scratch.h"
 
 #include <lore/core/error.h>
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 using namespace lore;
 using lore::test::complaint_of;
@@ -35,6 +38,34 @@ TEST(CsvTable, gives_fields_by_row_and_column_without_spaces_empty_lines_and_car
     EXPECT_EQ(read.number<int>(1, read.column("count")), 2);
     EXPECT_TRUE(read.has("count"));
     EXPECT_FALSE(read.has("counts"));
+}
+
+TEST(CsvTable, takes_fields_between_quotes) {
+    CsvTable const read =
+        table("\"name\",unit\n \"a, b\" ,\"\"\n\" 5\"\" x \",\"1\"\nx \"y\",\"open\n\"a\"b,\"\"\"\"\n");
+    ASSERT_EQ(read.rows(), 4u);
+    std::size_t const name = read.column("name"), unit = read.column("unit");
+    EXPECT_EQ(read.text(0, name), "a, b");
+    EXPECT_EQ(read.text(0, unit), "");
+    EXPECT_EQ(read.text(1, name), " 5\" x ");
+    EXPECT_EQ(read.number<int>(1, unit), 1);
+    EXPECT_EQ(read.text(2, name), "x \"y\"") << "quotes within a field are text";
+    EXPECT_EQ(read.text(2, unit), "\"open");
+    EXPECT_EQ(read.text(3, name), "\"a\"b");
+    EXPECT_EQ(read.text(3, unit), "\"");
+}
+
+TEST(CsvTable, gives_back_any_text_that_was_written_as_a_field) {
+    for (std::string const text : {"", "balls", "m/s", "a,b", "\"", "5\" pipes", " x ", "\",\"", "\"\"", ",", "x\""})
+        EXPECT_EQ(table("a,b\n" + csv_field(text) + ",1\n").text(0, 0), text) << csv_field(text);
+    EXPECT_EQ(csv_field("m/s"), "m/s");
+    EXPECT_EQ(csv_field("5\" x, y"), "\"5\"\" x, y\"");
+}
+
+TEST(CsvTable, of_a_long_life_is_read) {
+    Scratch const scratch;
+    std::ofstream{scratch.file("t.csv")} << "a\n" << std::string(std::size_t{17} << 20, '\n') << "1\n";
+    EXPECT_EQ(CsvTable::read(scratch.file("t.csv"), "Mend it.").rows(), 1u);
 }
 
 TEST(CsvTable, names_file_line_and_column_of_what_is_wrong) {
@@ -68,7 +99,7 @@ TEST(CsvTable, refuses_what_is_no_table_and_columns_that_are_missing_or_there_tw
 }
 
 TEST(CsvTable, refuses_numbers_that_are_not_finite_or_do_not_fit) {
-    CsvTable const read = table("a\nnan\ninf\n1e999\n-1\n1.5\n\"1\"\n");
+    CsvTable const read = table("a\nnan\ninf\n1e999\n-1\n1.5\n\"1\n");
     for (std::size_t row : {0u, 1u, 2u, 5u}) EXPECT_THROW(read.number<double>(row, 0), Error) << row;
     EXPECT_THROW(read.number<unsigned>(3, 0), Error);
     EXPECT_THROW(read.number<int>(4, 0), Error);

@@ -231,6 +231,21 @@ TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tab
         EXPECT_EQ(made(name), made(name, "again")) << name;
 }
 
+TEST_F(Report, of_a_unit_with_a_comma_can_be_made_again_from_its_tables) {
+    ::setenv("LORE_FAKE_UNIT", "5\" steps, forward", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    write_report(plan(), directory());
+    EXPECT_NE(made("final.csv").find(",\"5\"\" steps, forward\"\n"), std::string::npos) << made("final.csv");
+    EXPECT_NE(made("report.html").find("Reward [5&quot; steps, forward]"), std::string::npos);
+    std::filesystem::create_directories(scratch.file("kept"));
+    for (auto const& entry : std::filesystem::directory_iterator{scratch.file("c")})
+        if (entry.path().extension() == ".csv")
+            std::filesystem::copy_file(entry.path(), scratch.file("kept/" + entry.path().filename().string()));
+    write_report(plan(), directory("kept"), directory("again"));
+    EXPECT_EQ(made("report.html"), made("report.html", "again"));
+}
+
 TEST_F(Report, refuses_a_pool_of_rewards_of_different_units) {
     write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"both\"\ntreatments = [\"kb1\", \"all\"]\n");
     std::filesystem::create_directories(scratch.file("kept"));
