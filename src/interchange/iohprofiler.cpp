@@ -3,7 +3,7 @@
 #include "new_directory.h"
 
 #include <lore/archive/atomic_file.h>
-#include <lore/campaign/state.h>
+#include <lore/campaign/finished_runs.h>
 #include <lore/core/checksum.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
@@ -50,12 +50,6 @@ struct Problem {
     }
 };
 
-struct Run {
-    int number = 0;
-    std::uint64_t seed = 0;
-    std::vector<GenerationSummary> progress;
-};
-
 /// For names of files.
 std::string plain(std::string const& name) {
     std::string all;
@@ -99,13 +93,14 @@ struct Record {
     double best = 0;
 };
 
+/// Precondition: there is a generation.
 Record record_of(std::vector<GenerationSummary> const& progress, std::string_view reward_unit) {
     Record record;
     auto const add = [&](std::uint64_t evaluation, double reward) {
         record.rows += fmt::format("{} {}\n", evaluation, reward);
         record.evaluations = evaluation;
     };
-    if (!progress.empty() && reward_unit != first_reward_unit) record.best = progress.front().mean_reward;
+    if (reward_unit != first_reward_unit) record.best = progress.front().mean_reward;
     add(1, record.best);
     for (GenerationSummary const& generation : progress) {
         if (generation.best_reward <= record.best) continue;
@@ -113,7 +108,7 @@ Record record_of(std::vector<GenerationSummary> const& progress, std::string_vie
         record.best_evaluation = generation.evaluations;
         add(generation.evaluations, generation.best_reward);
     }
-    if (!progress.empty() && progress.back().evaluations != record.evaluations)
+    if (progress.back().evaluations != record.evaluations)
         add(progress.back().evaluations, progress.back().best_reward);
     return record;
 }
@@ -126,19 +121,19 @@ void write_text(fs::path const& path, std::string const& text) {
 }
 
 void write_treatment(fs::path const& folder, Treatment const& treatment, Problem const& problem,
-                     std::vector<Run> const& runs) {
+                     std::vector<FinishedRun> const& runs) {
     std::string const data_folder = fmt::format("data_f{}_{}", problem.id, problem.name);
     std::string const data_file = fmt::format("{}/IOHprofiler_f{}_DIM{}.dat", data_folder, problem.id, dimension);
     std::string data;
     Json of_runs = Json::array();
-    for (Run const& run : runs) {
+    for (FinishedRun const& run : runs) {
         Record const record = record_of(run.progress, problem.world.reward_unit);
         data += "evaluations raw_y\n" + record.rows;
         of_runs.push_back(
             {{"instance", run.number},
              {"evals", record.evaluations},
              {"best", {{"evals", record.best_evaluation}, {"y", number(record.best)}, {"x", Json::array()}}},
-             {"seed", run.seed}});
+             {"seed", run.manifest.seed}});
     }
     Json const scenario{{"dimension", dimension}, {"path", data_file}, {"runs", of_runs}};
     Json const document{{"version", format_version},
@@ -156,18 +151,6 @@ void write_treatment(fs::path const& folder, Treatment const& treatment, Problem
                document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::vector<Run> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory,
-                               Treatment const& treatment) {
-    std::vector<Run> runs;
-    for (Step const& step : steps_of(plan)) {
-        if (step.kind != StepKind::evolve || step.subject != treatment.name) continue;
-        if (state_of(plan, directory, step, Locks::ignored).status != StepStatus::done) continue;
-        runs.push_back({step.run, seed_of(treatment, step.run),
-                        read_progress((fs::path{directory.run(step.name)} / run_file::progress).string())});
-    }
-    return runs;
-}
-
 }   // namespace
 
 ExportCounts export_iohprofiler(CampaignPlan const& plan, CampaignDirectory const& directory, std::string const& out) {
@@ -176,7 +159,7 @@ ExportCounts export_iohprofiler(CampaignPlan const& plan, CampaignDirectory cons
     ExportCounts counts;
     for (std::string const& name : all_treatments(plan)) {
         Treatment const& treatment = plan.treatment(name);
-        std::vector<Run> const runs = finished_runs(plan, directory, treatment);
+        std::vector<FinishedRun> const runs = finished_runs(plan, directory, treatment);
         if (runs.empty()) continue;
         Problem const& problem = problem_of(directory.run(run_step(name, runs.front().number)), problems);
         write_treatment(fs::path{folder.path()} / name, treatment, problem, runs);

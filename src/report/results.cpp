@@ -1,13 +1,10 @@
 #include "results.h"
 
-#include <lore/core/whole_number.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/campaign/choice.h>
+#include <lore/campaign/finished_runs.h>
 #include <lore/campaign/state.h>
-#include <lore/core/error.h>
-#include <lore/experiment/manifest.h>
-#include <lore/experiment/progress_file.h>
-#include <lore/experiment/run_directory.h>
+#include <lore/core/whole_number.h>
 #include <lore/statistics/bootstrap.h>
 
 #include <algorithm>
@@ -26,45 +23,25 @@ namespace fs = std::filesystem;
 /// Curves are kept at so many generations at most: what a figure can show.
 constexpr int most_curve_points = 401;
 
-struct FinishedRun {
-    RunRow row;
-    std::vector<GenerationSummary> progress;   ///< by generation, from 0
-    int length() const { return static_cast<int>(progress.size()); }
-};
-
 /// Generations that all of the runs have reached.
 int common_length(std::vector<FinishedRun> const& runs) {
-    return std::min_element(runs.begin(), runs.end(),
-                            [](FinishedRun const& a, FinishedRun const& b) { return a.length() < b.length(); })
-        ->length();
+    auto const shortest = std::min_element(runs.begin(), runs.end(), [](FinishedRun const& a, FinishedRun const& b) {
+        return a.progress.size() < b.progress.size();
+    });
+    return static_cast<int>(shortest->progress.size());
 }
 
-std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirectory const& directory,
-                                       Treatment const& treatment) {
-    std::vector<FinishedRun> finished;
-    for (int run = 1; run <= treatment.runs; ++run) {
-        Step const step{run_step(treatment.name, run), StepKind::evolve, treatment.name, treatment.name, run, {}};
-        if (state_of(plan, directory, step, Locks::ignored).status != StepStatus::done) continue;
-        std::string const path = directory.run(step.name);
-        Manifest const manifest = read_manifest((fs::path{path} / run_file::manifest).string());
-        std::vector<GenerationSummary> progress = read_progress((fs::path{path} / run_file::progress).string());
-        if (progress.empty())
-            throw Error(fmt::format("{} has no generation in its {}", path, run_file::progress), "the file was cut",
-                        "Remove the run to make it again.");
-        FinishedRun entry;
-        entry.row = {treatment.name,
-                     run,
-                     manifest.seed,
-                     progress.back().best_reward,
-                     progress.back().generation,
-                     progress.back().evaluations,
-                     manifest.signature,
-                     fmt::format("{} ({})", manifest.build.version, manifest.build.commit),
-                     manifest.world.reward_unit.empty() ? std::string{first_reward_unit} : manifest.world.reward_unit};
-        entry.progress = std::move(progress);
-        finished.push_back(std::move(entry));
-    }
-    return finished;
+RunRow row_of(Treatment const& treatment, FinishedRun const& run) {
+    Manifest const& manifest = run.manifest;
+    return {treatment.name,
+            run.number,
+            manifest.seed,
+            run.progress.back().best_reward,
+            run.progress.back().generation,
+            run.progress.back().evaluations,
+            manifest.signature,
+            fmt::format("{} ({})", manifest.build.version, manifest.build.commit),
+            manifest.world.reward_unit.empty() ? std::string{first_reward_unit} : manifest.world.reward_unit};
 }
 
 std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
@@ -254,7 +231,7 @@ Results collect_results(CampaignPlan const& plan, CampaignDirectory const& direc
         Treatment const& treatment = plan.treatment(name);
         auto const runs = finished_runs(plan, directory, treatment);
         if (runs.empty()) continue;
-        for (FinishedRun const& run : runs) results.runs.push_back(run.row);
+        for (FinishedRun const& run : runs) results.runs.push_back(row_of(treatment, run));
         auto const curve = curve_of(treatment, runs);
         results.curves.insert(results.curves.end(), curve.begin(), curve.end());
         auto const populations = populations_of(treatment, runs);

@@ -105,3 +105,10 @@ TEST_F(Iohprofiler, never_writes_over_a_directory_or_leaves_half_of_one) {
     for (auto const& entry : fs::directory_iterator{scratch.path()})
         EXPECT_FALSE(entry.path().filename().string().starts_with("ioh2")) << entry.path();
 }
+
+TEST_F(Iohprofiler, has_no_record_of_a_finished_run_whose_table_was_cut) {
+    write_rewards("none/001", {});
+    EXPECT_THAT(test::complaint_of([&] { export_iohprofiler(plan(), directory(), scratch.file("ioh")); }),
+                HasSubstr("none/001 has no generation in its progress.csv (the file was cut)"));
+    EXPECT_FALSE(fs::exists(scratch.file("ioh")));
+}
