@@ -28,7 +28,7 @@ GenerationSummary summarize(GenerationReport const& report) {
             summary.best_shaping = member.shaping;
             at_max = 0;
         }
-        if (member.shaping == summary.best_shaping && member.shaping != no_feature_value) ++at_max;
+        if (member.shaping == summary.best_shaping && member.shaping != report.nothing_shown) ++at_max;
         ++sharing[member.objectives.value];
     }
     double const count = static_cast<double>(members.size());

@@ -76,6 +76,12 @@ std::vector<double> values_for_the_pool(EvaluationContext const& context) {
     return {values.begin(), values.end()};
 }
 
+/// What shows that nobody matches a feature. The other rules have no such value.
+double value_of_nothing(EvaluationContext const& context) {
+    bool const by_max = context.shaper && context.shaper->rule() == ShapingRule::max;
+    return by_max ? context.shaper->nothing_shown() : no_feature_value;
+}
+
 /// A checkpoint's features become places in a table.
 void refuse_unknown_features(PreparedRun const& run) {
     if (!run.setup.checkpoint) return;
@@ -176,12 +182,14 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     if (!run.setup.warning.empty()) write_stderr(fmt::format("warning: {}\n", run.setup.warning));
 
     std::vector<double> feature_values = values_for_the_pool(run.context);
+    double const nothing_shown = value_of_nothing(run.context);
     std::vector<std::string> hosts = give_order(session, run.setup.order);
     // Releases the others whatever happens from here on.
     Farm farm{session.world(), std::move(run.context)};
     EvolutionConfig evolution = run.setup.order.config.evolution;
     evolution.interface = run.setup.manifest.world.interface();
     evolution.feature_values = std::move(feature_values);
+    evolution.nothing_shown = nothing_shown;
     std::uint64_t const seed = run.setup.seed;
     std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);
