@@ -4,6 +4,8 @@
 #include "support/complaint.h"
 
 #include <lore/campaign/replay.h>
+#include <lore/experiment/progress_file.h>
+#include <lore/world/reward_text.h>
 
 #include <gmock/gmock.h>
 
@@ -15,6 +17,18 @@ class Report : public test::CampaignTest {
 protected:
     std::string made(std::string const& name, std::string const& where = "c") const {
         return read(scratch.file(where + "/" + name));
+    }
+    /// In place of what the fake made up: no ball at first, then so many until generation 20.
+    void write_rewards(std::string const& step, double reward) const {
+        std::string table = progress_header(first_reward_unit) + "\n";
+        for (int generation = 0; generation <= 20; ++generation) {
+            GenerationSummary row;
+            row.generation = generation;
+            row.best_reward = generation == 0 ? 0 : reward;
+            row.evaluations = 400 + 200ull * static_cast<unsigned>(generation);
+            table += text(row) + "\n";
+        }
+        write("c/runs/" + step + "/progress.csv", table);
     }
     int rows(std::string const& name) const {
         std::string const text = made(name);
@@ -108,14 +122,20 @@ TEST_F(Report, says_how_much_of_the_policys_lead_a_base_has) {
                                test::small_campaign.find("knowledge = \"kb1_all\""), 21, "policy_of = \"kb1\""));
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write("c/leads.csv", "of a former report");
-    write_report(plan(), directory());
-    EXPECT_TRUE(
-        made("leads.csv").starts_with("treatment,policy,none,generation,balls,policy_balls,none_balls,share\n"));
-    if (rows("leads.csv") > 0) {
-        EXPECT_NE(made("leads.csv").find("\nkb1,all,none,"), std::string::npos);
-        EXPECT_NE(made("report.html").find("id=\"leads\""), std::string::npos);
-        EXPECT_NE(made("summary.json").find("\"leads\""), std::string::npos);
+    for (int run = 1; run <= 3; ++run) {
+        write_rewards(run_step("none", run), 2);
+        write_rewards(run_step("all", run), 6);
+        write_rewards(run_step("kb1", run), 5);
     }
+    write_report(plan(), directory());
+    EXPECT_EQ(made("leads.csv"), "treatment,policy,none,generation,balls,policy_balls,none_balls,share\n"
+                                 "kb1,all,none,1,5.0000,6.0000,2.0000,0.7500\n"
+                                 "kb1,all,none,2,5.0000,6.0000,2.0000,0.7500\n"
+                                 "kb1,all,none,5,5.0000,6.0000,2.0000,0.7500\n"
+                                 "kb1,all,none,10,5.0000,6.0000,2.0000,0.7500\n"
+                                 "kb1,all,none,20,5.0000,6.0000,2.0000,0.7500\n");
+    EXPECT_NE(made("report.html").find("id=\"leads\""), std::string::npos);
+    EXPECT_NE(made("summary.json").find("\"share\": 0.75"), std::string::npos);
 }
 
 TEST_F(Report, of_the_published_tables_is_the_published_one) {
