@@ -8,8 +8,6 @@
 
 namespace lore {
 
-struct Findings;
-
 /// Two treatments compared by their runs' rewards at the end: a row of pvalues.csv.
 struct Comparison {
     std::string a, b;
@@ -33,9 +31,6 @@ std::vector<Comparison> compare_pools(CampaignPlan const&, Results const&);
 std::string pools_csv(std::vector<Comparison> const&);
 /// Rewards at the end of all runs of a treatment or a pool, in the order of final.csv.
 std::vector<double> rewards_of(CampaignPlan const&, Results const&, std::string_view name);
-
-/// summary.json: what each treatment reached and how they compare, for programs.
-std::string summary_json(CampaignPlan const&, Results const&, Findings const&);
 
 /// The paper's marks: "**" for p < 1e-3, "*" for p < 1e-2, else "".
 std::string_view significance_mark(double p);

@@ -20,7 +20,6 @@ struct CsvColumn {
     std::string name;
     std::function<void(std::string&, Row const&)> write;
     std::function<void(CsvTable const&, std::size_t row, std::size_t column, Row&)> read;
-    bool optional = false;   ///< files of former versions may lack it; the row's default then stays
 };
 
 enum class Digits : std::uint8_t { shortest, four };
@@ -48,10 +47,12 @@ CsvColumn<Row> csv_column(std::string name, Value Row::*member, Digits digits = 
             }};
 }
 
-template <class Row>
-CsvColumn<Row> optional(CsvColumn<Row> column) {
-    column.optional = true;
-    return column;
+/// The column of a part of the row.
+template <class Row, class Part>
+CsvColumn<Row> csv_column_within(Part Row::*part, CsvColumn<Part> column) {
+    return {
+        column.name, [=](std::string& text, Row const& row) { column.write(text, row.*part); },
+        [=](CsvTable const& table, std::size_t r, std::size_t c, Row& row) { column.read(table, r, c, row.*part); }};
 }
 
 template <class Row>
@@ -73,7 +74,6 @@ template <class Row>
 std::vector<Row> csv_rows(std::vector<CsvColumn<Row>> const& columns, CsvTable const& table) {
     std::vector<Row> rows(table.rows());
     for (CsvColumn<Row> const& column : columns) {
-        if (column.optional && !table.has(column.name)) continue;
         std::size_t const c = table.column(column.name);
         for (std::size_t r = 0; r < rows.size(); ++r) column.read(table, r, c, rows[r]);
     }

@@ -1,12 +1,13 @@
 #include "matrix.h"
 
+#include "csv_columns.h"
+
 #include <lore/statistics/holm.h>
 #include <lore/statistics/mann_whitney.h>
 #include <lore/statistics/quantiles.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -56,6 +57,46 @@ std::string signed_text(MatrixField const& field, double value) {
     return value == 0 ? "0" : fmt::format("{:+.{}f}", value, decimals);
 }
 
+using Column = CsvColumn<MatrixField>;
+
+Column of_pair(std::string name, std::string TransferPair::*member) {
+    return csv_column_within(&MatrixField::pair, csv_column(std::move(name), member));
+}
+
+/// Empty in a field without numbers.
+Column if_known(Column column) {
+    column.write = [write = std::move(column.write)](std::string& text, MatrixField const& field) {
+        if (field.why.empty()) write(text, field);
+    };
+    return column;
+}
+
+std::vector<Column> matrix_columns() {
+    std::vector<Column> columns{of_pair("source", &TransferPair::source), of_pair("target", &TransferPair::target),
+                                of_pair("treatment", &TransferPair::treatment), of_pair("none", &TransferPair::none)};
+    auto const add = [&](std::string name, auto member) {
+        columns.push_back(if_known(csv_column(std::move(name), member)));
+    };
+    auto const add_band = [&](std::string const& name, Interval MatrixField::*band) {
+        columns.push_back(if_known(csv_column_within(band, csv_column(name + "_low", &Interval::low))));
+        columns.push_back(if_known(csv_column_within(band, csv_column(name + "_high", &Interval::high))));
+    };
+    add("unit", &MatrixField::unit);
+    add("generation", &MatrixField::generation);
+    add("n", &MatrixField::n);
+    add("n_none", &MatrixField::n_none);
+    add("mean", &MatrixField::mean);
+    add("mean_none", &MatrixField::mean_none);
+    add("difference", &MatrixField::difference);
+    add_band("difference", &MatrixField::difference_band);
+    add("a12", &MatrixField::a12);
+    add_band("a12", &MatrixField::a12_band);
+    add("p", &MatrixField::p);
+    add("p_holm", &MatrixField::p_holm);
+    columns.push_back(csv_column("why", &MatrixField::why));
+    return columns;
+}
+
 }   // namespace
 
 std::vector<MatrixField> transfer_matrix(CampaignPlan const& plan, Results const& results) {
@@ -72,21 +113,7 @@ std::vector<MatrixField> transfer_matrix(CampaignPlan const& plan, Results const
     return fields;
 }
 
-std::string matrix_csv(std::vector<MatrixField> const& fields) {
-    std::string text = "source,target,treatment,none,unit,generation,n,n_none,mean,mean_none,difference,"
-                       "difference_low,difference_high,a12,a12_low,a12_high,p,p_holm,why\n";
-    for (MatrixField const& f : fields) {
-        if (f.why.empty())
-            fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\n",
-                           f.pair.source, f.pair.target, f.pair.treatment, f.pair.none, f.unit, f.generation, f.n,
-                           f.n_none, f.mean, f.mean_none, f.difference, f.difference_band.low, f.difference_band.high,
-                           f.a12, f.a12_band.low, f.a12_band.high, f.p, f.p_holm);
-        else
-            fmt::format_to(std::back_inserter(text), "{},{},{},{},,,,,,,,,,,,,,,{}\n", f.pair.source, f.pair.target,
-                           f.pair.treatment, f.pair.none, f.why);
-    }
-    return text;
-}
+std::string matrix_csv(std::vector<MatrixField> const& fields) { return csv_text(matrix_columns(), fields); }
 
 CampaignPlan without_misfits(CampaignPlan plan, Results const& results) {
     for (TransferPair& pair : plan.transfer) {

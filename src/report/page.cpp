@@ -173,6 +173,14 @@ bool shows_worlds(Results const& results) {
 
 }   // namespace
 
+std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
+    if (plan.figures.trajectory.empty() || !results.replays.empty()) return "";
+    return fmt::format("Figures 5 and 6 and the replay are missing: the step 'replay' has not written scene.json yet. "
+                       "Call 'lore-campaign report' again once '{}' has its source run, or keep scene.json beside the "
+                       "tables.",
+                       plan.figures.trajectory);
+}
+
 std::string report_page(CampaignPlan const& plan, Results const& results, Findings const& findings,
                         Figures const& figures) {
     RewardWords const words = words_of(plan, results);

@@ -3,6 +3,7 @@
 #include "chart.h"
 #include "page.h"
 #include "panels.h"
+#include "summary.h"
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/directory.h>
@@ -106,14 +107,6 @@ void write_matrix(CampaignDirectory const& into, std::vector<MatrixField> const&
 }
 
 }   // namespace
-
-std::string what_is_missing(CampaignPlan const& plan, Results const& results) {
-    if (plan.figures.trajectory.empty() || !results.replays.empty()) return "";
-    return fmt::format("Figures 5 and 6 and the replay are missing: the step 'replay' has not written scene.json yet. "
-                       "Call 'lore-campaign report' again once '{}' has its source run, or keep scene.json beside the "
-                       "tables.",
-                       plan.figures.trajectory);
-}
 
 std::string write_report(CampaignPlan const& given, CampaignDirectory const& from, CampaignDirectory const& into) {
     std::error_code ignored;   // what cannot be looked at is as good as not there

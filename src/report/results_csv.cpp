@@ -14,7 +14,7 @@ namespace lore {
 
 namespace {
 
-// A new column is one line here, and a member of the row; one that older files lack is marked as optional.
+// A new column is one line here, and a member of the row.
 // `word` is what the reward is called: the unit that the first worlds have stands in the columns' names. Of other
 // rewards the unit has a column of its own, and means all their digits, since they may be small.
 

@@ -1,5 +1,6 @@
 #include "comparison.h"
 #include "findings.h"
+#include "summary.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
