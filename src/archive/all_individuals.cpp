@@ -324,6 +324,4 @@ AllIndividualsSummary check_all_individuals(std::string const& path) {
     return replay.summary();
 }
 
-WorldRecord world_of_all_individuals(std::string const& path) { return FrameReader{path}.world(); }
-
 }   // namespace lore

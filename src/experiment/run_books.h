@@ -31,7 +31,6 @@ public:
     std::uint64_t session_steps() const { return row_.steps - former_steps_; }
     /// Spent on files so far [s].
     double filing_seconds() const { return filing_seconds_; }
-    GenerationSummary const& last_row() const { return row_; }
     std::string const& reward_unit() const { return setup_.manifest.world.reward_unit; }
 
 private:

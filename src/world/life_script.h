@@ -54,7 +54,6 @@ public:
 
 private:
     void record();
-    void gather_outcomes(std::vector<float>& into) const;
     void check(std::string const& why) const;
 
     WorldFacts const& facts_;

@@ -9,8 +9,9 @@ namespace {
 
 void export_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
-    app.add_option("--format", arguments.format, "iohanalyzer: the format of IOHprofiler")
-        ->capture_default_str()
+    app.add_option("--format", "iohanalyzer: the format of IOHprofiler")   // the only one
+        ->type_name("TEXT")
+        ->default_str("iohanalyzer")
         ->check(CLI::IsMember({"iohanalyzer"}));
     app.add_option("--out", arguments.out, "a new directory for it")->required()->type_name("DIR");
 }

@@ -24,10 +24,9 @@ struct Arguments {
     bool interval = false;
     int port = -1;   ///< of `watch`; -1: none was given
     bool as_text = false;
-    bool follow = false;                  ///< of `events`
-    int every = 1;                        ///< generations
-    std::string format = "iohanalyzer";   ///< of `export`
-    PackOptions pack;                     ///< of `pack`; which parts it leaves out is said by name
+    bool follow = false;   ///< of `events`
+    int every = 1;         ///< generations
+    PackOptions pack;      ///< of `pack`; which parts it leaves out is said by name
     std::vector<std::string> leave_out;
     bool quiet = false;
 };

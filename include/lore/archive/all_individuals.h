@@ -69,7 +69,5 @@ struct AllIndividualsSummary {
     WorldRecord world;
 };
 AllIndividualsSummary check_all_individuals(std::string const& path);
-/// The world of a file, whose head alone is read. Throws Error.
-WorldRecord world_of_all_individuals(std::string const& path);
 
 }   // namespace lore

@@ -78,7 +78,6 @@ TEST(AllIndividuals, of_any_world_keep_fractional_rewards_and_the_world) {
     EXPECT_EQ(seen.front().genome.interface, world.interface());
     EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [](Remembered const& one) { return one.reward < 0; }));
     EXPECT_EQ(check_all_individuals(scratch.file("all")).world, world);
-    EXPECT_EQ(world_of_all_individuals(scratch.file("all")), world);
 }
 
 TEST(AllIndividuals, keep_any_finite_reward_and_refuse_others) {

@@ -77,7 +77,7 @@ TEST(StoredArchive, of_version_1_is_read_as_collectball_s_and_says_what_was_writ
     EXPECT_EQ(read_founders(directory / "founders.lore").genomes.size(), 2u);
     EXPECT_EQ(read_founders(directory / "founders.lore").world.channels, channels);
     EXPECT_EQ(read_knowledge_base(directory / "sample.lorekb").config().channels, channels);
-    EXPECT_EQ(world_of_all_individuals(directory / "all.lore").channels, channels);
+    EXPECT_EQ(check_all_individuals(directory / "all.lore").world.channels, channels);
     Checkpoint const checkpoint =
         unpack_checkpoint(read_container(directory / "checkpoint.lore", FileKind::checkpoint), "x");
     EXPECT_EQ(checkpoint.state.population.members[0].descriptors->channels(), channels.count());
