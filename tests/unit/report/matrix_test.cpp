@@ -155,7 +155,7 @@ TEST_F(MatrixReport, can_be_made_again_from_its_tables_where_a_world_is_not_at_h
                            "[[source]]\nname = \"arena\"\nconfig = \"source.toml\"\n"
                            "[[source]]\nname = \"pole\"\nlabel = \"the <pole>\"\nconfig = \"pole.toml\"\n"
                            "[[target]]\nname = \"arena\"\nlabel = \"the arena\"\nconfig = \"target.toml\"\n"
-                           "[[target]]\nname = \"pole\"\nconfig = \"pole.toml\"\n"
+                           "[[target]]\nname = \"pole\"\nconfig = \"pole.toml\"\nfirst_seed = 101\n"
                            "[transfer]\nmethod = \"shaping\"\n");
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());
