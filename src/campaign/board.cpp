@@ -1,6 +1,7 @@
 #include <lore/campaign/board.h>
 
 #include <lore/core/standard_streams.h>
+#include <lore/core/utf8.h>
 
 #include <algorithm>
 
@@ -40,7 +41,7 @@ void Board::announce(std::string const& line) {
 void Board::complain(std::string const& line) {
     auto kept = lines_;
     erase();
-    write_stderr(line + "\n");
+    write_stderr(harmless(line) + "\n");   // it may quote a log
     draw(std::move(kept));
 }
 

@@ -159,8 +159,8 @@ PanelValues panel_of(Json const& json) {
     return panel;
 }
 
-/// Files of Lore 1.0.0 do not say the length of windows. So many whole ones fit where the length is the usual one, or
-/// else the longest of those with which they do.
+/// Files made before 1.0.0 do not say the length of windows. So many whole ones fit where the length is the usual one,
+/// or else the longest of those with which they do.
 int fitting_length(std::size_t steps, std::size_t windows) {
     KnowledgeConfig const usual;
     auto const length = static_cast<std::size_t>(usual.window_length);

@@ -1,5 +1,7 @@
 #include <lore/core/utf8.h>
 
+#include <algorithm>
+
 namespace lore {
 
 std::size_t printable_bytes(std::string_view text) {
@@ -21,6 +23,17 @@ std::size_t printable_bytes(std::string_view text) {
     for (std::size_t i = 2; i < length; ++i)
         if ((byte(i) & 0xc0) != 0x80) return 0;
     return length;
+}
+
+std::string harmless(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        std::size_t const length = printable_bytes(text);
+        if (length == 0) out += '?';
+        else out += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(1, length));
+    }
+    return out;
 }
 
 }   // namespace lore

@@ -39,17 +39,6 @@ std::string treatment_line(TreatmentFacts const& facts) {
 
 }   // namespace
 
-std::string harmless(std::string_view text) {
-    std::string out;
-    while (!text.empty()) {
-        std::size_t const length = printable_bytes(text);
-        if (length == 0) out += '?';
-        else out += text.substr(0, length);
-        text.remove_prefix(std::max<std::size_t>(1, length));
-    }
-    return out;
-}
-
 std::string summary_of(CampaignFacts const& facts) {
     std::string line = fmt::format("{} {} of {} steps done, {} running, {} failed", bar(facts.share, 10),
                                    facts.count(StepStatus::done), facts.steps.size(), facts.count(StepStatus::running),

@@ -238,7 +238,7 @@ class Windows(LoreTest):
         strip = plot.figure5(self.scratch).subfigs[0].axes[1]
         self.assertEqual(strip.get_xlim(), (0, 45))
 
-    def test_of_lore_1_0_0_have_a_length_that_fits_and_marks_for_those_not_found(self) -> None:
+    def test_made_before_1_0_0_have_a_length_that_fits_and_marks_for_those_not_found(self) -> None:
         del self.scene["panels"][0]["window_length"]
         (self.scratch / "scene.json").write_text(json.dumps(self.scene))
         (self.scratch / "values.csv").write_text(

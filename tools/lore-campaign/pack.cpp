@@ -2,8 +2,8 @@
 
 #include <lore/campaign/plan.h>
 #include <lore/campaign/stop_signals.h>
+#include <lore/core/utf8.h>
 #include <lore/interchange/verify_pack.h>
-#include <lore/watch/text_view.h>
 
 namespace lore::campaign_program {
 

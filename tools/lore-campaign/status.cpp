@@ -2,6 +2,7 @@
 
 #include <lore/campaign/plan.h>
 #include <lore/campaign/state.h>
+#include <lore/core/utf8.h>
 
 #include <fmt/ranges.h>
 
@@ -20,7 +21,7 @@ ExitCode show_status(Arguments const& arguments) {
     std::map<StepStatus, int> counts;
     for (auto const& [step, state] : states_of(campaign, directory)) {
         ++counts[state.status];
-        if (!arguments.quiet) fmt::print("{:<24} {:<12} {}\n", step.name, name(state.status), state.reason);
+        if (!arguments.quiet) fmt::print("{:<24} {:<12} {}\n", step.name, name(state.status), harmless(state.reason));
     }
     std::vector<std::string> words;
     for (auto const& [status, count] : counts) words.push_back(fmt::format("{} {}", count, name(status)));

@@ -4,6 +4,7 @@
 #include <lore/campaign/board.h>
 #include <lore/campaign/stop_signals.h>
 #include <lore/core/stopwatch.h>
+#include <lore/core/utf8.h>
 #include <lore/report/replay_page.h>
 #include <lore/watch/text_view.h>
 #include <lore/watch/watcher.h>

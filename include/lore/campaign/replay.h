@@ -32,7 +32,8 @@ struct PanelValues {
     std::string knowledge;        ///< names joined by '*'
     std::vector<double> values;   ///< per whole window; NaN: not found, of a product by one of its bases
     std::string checksum = {};    ///< of the knowledge bases' files, joined by '*'; tells whether they are still those
-    /// [steps]; 0: not known. read_replays takes files of Lore 1.0.0, which do not say it, to have a length that fits.
+    /// [steps]; 0: not known. read_replays takes files made before 1.0.0, which do not say it, to have a length that
+    /// fits.
     int window_length = 0;
 };
 

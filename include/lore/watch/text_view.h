@@ -8,9 +8,6 @@
 
 namespace lore {
 
-/// Text as a terminal may show it: control characters, which could steer the terminal, and what is no UTF-8 become '?'.
-std::string harmless(std::string_view text);
-
 /// The whole picture, for a terminal: the treatments, the runs at work, the failures, and the campaign in the last
 /// line.
 std::vector<std::string> picture_of(CampaignFacts const&);

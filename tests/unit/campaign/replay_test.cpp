@@ -151,7 +151,7 @@ protected:
         write_replays(directory(), all);
         return read_replays(directory()).panels.front();
     }
-    /// As Lore 1.0.0 wrote them.
+    /// As they were written before 1.0.0.
     PanelValues former_panel(int steps, std::string const& knowledge, std::vector<std::string> const& values) const {
         write_replays(directory(), life_of(steps, {}, 0));
         std::string table = "figure,knowledge,window,value\n", scene = read(directory().file("scene.json"));

@@ -1,3 +1,4 @@
+#include <lore/campaign/board.h>
 #include <lore/campaign/runner.h>
 
 #include <lore/campaign/choice.h>
@@ -91,6 +92,12 @@ TEST_F(Runner, reports_a_run_that_fails_twice_and_goes_on_with_the_others) {
     ::unsetenv("LORE_FAKE_FAIL");   // mended: the next call makes it
     EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     EXPECT_EQ(state("kb1/002").status, StepStatus::done);
+}
+
+TEST(Board, shows_what_a_log_says_and_not_what_a_terminal_would_obey) {
+    testing::internal::CaptureStderr();
+    Board{true}.complain("    it said \033[2J");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "    it said ?[2J\n");
 }
 
 TEST_F(Runner, does_not_try_again_what_was_refused_as_wrongly_configured) {

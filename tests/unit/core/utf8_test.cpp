@@ -26,3 +26,20 @@ TEST(Utf8, has_control_characters_which_nobody_can_see) {
     for (char const* text : {"\x01", "\n", "\x1b[", "\x7f", "\xc2\x80", "\xc2\x9b", "\xc2\x9f"})
         EXPECT_EQ(printable_bytes(text), 0u) << text;
 }
+
+TEST(Harmless, text_has_no_character_that_steers_a_terminal) {
+    EXPECT_EQ(harmless("plain, gr\xc3\xb6\xc3\x9f"
+                       "er \xf0\x9f\xa4\x96"),
+              "plain, gr\xc3\xb6\xc3\x9f"
+              "er \xf0\x9f\xa4\x96");
+    EXPECT_EQ(harmless("\033[31m\n\t\r\x7f"), "?[31m????");
+    EXPECT_EQ(harmless("\xc2\x9b"
+                       "31m"),
+              "??31m")
+        << "CSI as one character of C1";
+    EXPECT_EQ(harmless("\x9b"
+                       "31m \xff \xc3"),
+              "?31m ? ?")
+        << "no UTF-8";
+    EXPECT_EQ(harmless(""), "");
+}

@@ -46,23 +46,6 @@ CampaignFacts facts() {
 
 }   // namespace
 
-TEST(TextView, shows_no_character_that_steers_a_terminal) {
-    EXPECT_EQ(harmless("plain, gr\xc3\xb6\xc3\x9f"
-                       "er \xf0\x9f\xa4\x96"),
-              "plain, gr\xc3\xb6\xc3\x9f"
-              "er \xf0\x9f\xa4\x96");
-    EXPECT_EQ(harmless("\033[31m\n\t\r\x7f"), "?[31m????");
-    EXPECT_EQ(harmless("\xc2\x9b"
-                       "31m"),
-              "??31m")
-        << "CSI as one character of C1";
-    EXPECT_EQ(harmless("\x9b"
-                       "31m \xff \xc3"),
-              "?31m ? ?")
-        << "no UTF-8";
-    EXPECT_EQ(harmless(""), "");
-}
-
 TEST(TextView, is_a_picture_with_the_campaign_in_the_last_line) {
     EXPECT_THAT(picture_of(facts()),
                 ElementsAre("A title?[2J",

@@ -234,12 +234,12 @@ def _panels(report: Report, figure_name: str) -> Figure:
         )
         shown, length = values.where(knowledge=base)["value"], lengths.get((figure_name, base))
         if length is None:
-            shown, length = _of_lore_1_0_0(shown, len(steps), isinstance(scenes[name], Scene), "*" in base)
+            shown, length = _of_before_1_0_0(shown, len(steps), isinstance(scenes[name], Scene), "*" in base)
         _draw_panel(part, scenes[name], steps, shown, length, base.count("*") + 1, title)
     return figure
 
 
-def _of_lore_1_0_0(
+def _of_before_1_0_0(
     values: NDArray[np.float64], steps: int, arena: bool, product: bool
 ) -> tuple[NDArray[np.float64], int]:
     """The values with nan for what is not found, and the length of windows: the usual one, if as many whole ones fit

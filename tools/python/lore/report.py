@@ -173,12 +173,12 @@ class Report:
     @property
     def values(self) -> Table:
         """The values of figures 5 and 6, a row a whole window: figure, knowledge, window, value. One that is not found is
-        nan; in arenas of Lore 1.0.0, whose panels are not among window_lengths, -1, or 0 of a product."""
+        nan; in arenas of files made before 1.0.0, whose panels are not among window_lengths, -1, or 0 of a product."""
         return self._with_gaps("values.csv", ("value",), figure="text", knowledge="text", window="int")
 
     @property
     def window_lengths(self) -> dict[tuple[str, str], int]:
-        """Steps of a window, by figure and knowledge. Lore 1.0.0 did not write them."""
+        """Steps of a window, by figure and knowledge. Files made before 1.0.0 do not have them."""
         document = read_json(self._file("scene.json"))
         try:
             lengths = {
