@@ -232,7 +232,7 @@ def record(place, programs, work):
     shutil.copy(SOURCE / "docs/examples/pendulum/pendulum.c", place / "world.c")
     shutil.copy(SOURCE / "docs/examples/newcomers/main.cpp", place / "program.cpp")
     for folder in ("campaigns", "tasks"):
-        shutil.copytree(SOURCE / "jobs" / folder, place / "jobs" / folder)
+        shutil.copytree(SOURCE / "jobs" / folder, place / "jobs" / folder, ignore=shutil.ignore_patterns("*.md"))
     evolve, asked = programs / "lore-evolve", ("source.toml", "--seed", "5", "--archive", "all", "-q")
     run(evolve, *asked, "--out", "whole", cwd=work)
     signature = run(evolve, *asked, "--out", "whole", "--resume", cwd=work).splitlines()[-1]
