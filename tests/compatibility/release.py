@@ -29,7 +29,7 @@ import sys
 import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PROGRAMS = ("lore-evolve", "lore-kb", "lore-replay", "lore-campaign", "lore-world")
+PROGRAMS = ("lore", "lore-evolve", "lore-kb", "lore-replay", "lore-campaign", "lore-world")
 TINY = """name = "tiny"
 arena = "{source}/jobs/tasks/arenas/collectball.toml"
 task = "{task}"
@@ -85,6 +85,43 @@ name = "two"
 config = "target.toml"
 [transfer]
 method = "policy"
+"""
+
+# Of rewards in another unit than balls, and a scene that the world draws.
+MAZE = """title = "tiny maze"
+runs = 2
+[source]
+config = "maze.toml"
+[[knowledge]]
+name = "base"
+run = 1
+[[treatment]]
+name = "none"
+config = "maze.toml"
+first_seed = 3
+[[treatment]]
+name = "clones"
+config = "maze.toml"
+clone_of = "base"
+[[treatment]]
+name = "policy"
+config = "maze.toml"
+policy_of = "base"
+[report]
+trajectory = "base"
+figure5 = ["base"]
+"""
+TINY_MAZE = """name = "tiny maze"
+[world]
+library = "maze"
+[world.settings]
+maze = "medium"
+[episode]
+steps = 50
+[evolution]
+population = 6
+founders = 20
+generations = 4
 """
 
 
@@ -151,16 +188,14 @@ def keys(value, place):
 
 def columns(programs, work):
     """'progress.csv generation', 'manifest.json.status': of all tables and JSON that programs write in `work`."""
-    (work / "campaign.toml").write_text(CAMPAIGN)
-    (work / "matrix.toml").write_text(MATRIX)
     for task in ("source", "target"):
         (work / f"{task}.toml").write_text(TINY.format(source=SOURCE, task=task))
-    campaign = ("campaign.toml", "--dir", "c", "-q")
-    run(programs / "lore-campaign", "run", *campaign, "--jobs", "1", cwd=work)
-    run(programs / "lore-campaign", "report", *campaign, cwd=work)
-    matrix = ("matrix.toml", "--dir", "m", "-q")
-    run(programs / "lore-campaign", "run", *matrix, "--jobs", "1", cwd=work)
-    run(programs / "lore-campaign", "report", *matrix, cwd=work)
+    (work / "maze.toml").write_text(TINY_MAZE)
+    for name, text in (("c", CAMPAIGN), ("m", MATRIX), ("z", MAZE)):
+        (work / f"{name}.toml").write_text(text)
+        campaign = (f"{name}.toml", "--dir", name, "-q")
+        run(programs / "lore-campaign", "run", *campaign, "--jobs", "1", cwd=work)
+        run(programs / "lore-campaign", "report", *campaign, cwd=work)
     one = work / "c/runs/source/001"
     run(programs / "lore-replay", one, "--out", work / "replay", "-q")
     base = work / "c/knowledge/base.lorekb"
@@ -169,12 +204,12 @@ def columns(programs, work):
     run(programs / "lore-kb", "export", base, "--csv", work / "export.csv", "-q")
     found = []
     tables = [one / "progress.csv", work / "replay/trace.csv", *sorted(work.glob("*.csv")), *sorted(work.glob("c/*.csv")),
-              work / "m/matrix.csv"]
+              work / "m/matrix.csv", work / "z/runs/source/001/progress.csv", *sorted(work.glob("z/*.csv"))]
     for table in tables:
         with open(table, newline="") as file:
             found += [f"{table.name} {column}" for column in next(csv.reader(file))
                       if table.name != "export.csv" or not re.search(r"_([1-9]|1\d)$", column)]  # of step 0 alone
-    for document in (one / "manifest.json", work / "c/summary.json", work / "c/scene.json"):
+    for document in (one / "manifest.json", work / "z/runs/source/001/manifest.json", *sorted(work.glob("[cz]/s*.json"))):
         found += keys(json.loads(document.read_text()), document.name)
     lines = {"individuals": run(programs / "lore-kb", "individuals", one), "events": run(programs / "lore-campaign", "events", work / "c")}
     for name, text in lines.items():
