@@ -17,8 +17,6 @@ namespace lore {
 
 namespace {
 
-using Names = std::vector<std::string>;
-
 /// The source whose runs it comes from: of its base, the one that it names, or the only one.
 std::string source_of(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
     if (!knowledge.base.empty()) return plan.knowledge_base(knowledge.base).source;
@@ -33,7 +31,7 @@ std::string source_of(TomlTable const& table, KnowledgePlan const& knowledge, Ca
 }
 
 void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
-    Names const bases = names_of(plan.knowledge);
+    NameList const bases = names_of(plan.knowledge);
     require_new(table, knowledge.name, bases);
     KnowledgeKindRow const& kind = row_of(knowledge.kind);
     if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);

@@ -20,8 +20,6 @@ namespace lore {
 
 namespace {
 
-using Names = std::vector<std::string>;
-
 // Steps of other kinds than runs have names that start with these words.
 std::set<std::string, std::less<>> const reserved_names{"choose", "knowledge", "archive", "replay", "report"};
 
@@ -51,7 +49,7 @@ Treatment read_inputs(TomlTable const& table, Defaults const& defaults, std::str
         static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
     std::int64_t const generations = table.integer("generations", 1, most_generations).value_or(defaults.generations);
     if (generations != 0) treatment.overrides.push_back(fmt::format("evolution.generations={}", generations));
-    for (std::string& setting : table.strings("set").value_or(Names{}))
+    for (std::string& setting : table.strings("set").value_or(NameList{}))
         treatment.overrides.push_back(std::move(setting));
     table.reject_unknown();
     return treatment;
@@ -139,7 +137,7 @@ void read_treatments(TomlTable const& document, Defaults const& defaults, Campai
 void check_against(TomlTable const& table, PoolPlan const& pool, CampaignPlan const& plan) {
     for (std::string const& other : pool.against) {
         PoolPlan const* const of_others = plan.pool(other);
-        Names const others = of_others == nullptr ? Names{other} : of_others->treatments;
+        NameList const others = of_others == nullptr ? NameList{other} : of_others->treatments;
         for (std::string const& name : others)
             if (std::find(pool.treatments.begin(), pool.treatments.end(), name) != pool.treatments.end())
                 table.fail("against", fmt::format("'{}' would be compared with itself", name),
@@ -148,20 +146,20 @@ void check_against(TomlTable const& table, PoolPlan const& pool, CampaignPlan co
 }
 
 void read_pools(TomlTable const& document, CampaignPlan& plan) {
-    Names const treatments = names_of(plan.targets);
-    Names comparable = treatments, names = treatments;
+    NameList const treatments = names_of(plan.targets);
+    NameList comparable = treatments, names = treatments;
     for (Treatment const& source : plan.sources) names.push_back(source.name);
     for (TomlTable const& table : document.tables("pool")) {
         PoolPlan pool;
         pool.name = read_name(table);
         require_new(table, pool.name, names);
         pool.label = table.string("label").value_or(pool.name);
-        pool.treatments = table.strings("treatments").value_or(Names{});
+        pool.treatments = table.strings("treatments").value_or(NameList{});
         for (std::string const& name : pool.treatments) require_known(table, "treatments", name, treatments);
         std::set<std::string> const different(pool.treatments.begin(), pool.treatments.end());
         if (different.empty() || different.size() != pool.treatments.size())
             table.fail("treatments", "it must name one treatment or more, each once");
-        pool.against = table.strings("against").value_or(Names{});
+        pool.against = table.strings("against").value_or(NameList{});
         for (std::string const& name : pool.against) require_known(table, "against", name, comparable);
         if (std::set<std::string>(pool.against.begin(), pool.against.end()).size() != pool.against.size())
             table.fail("against", "it names one twice", "Name each once.");
@@ -182,7 +180,7 @@ void refuse_idle_tasks(TomlTable const& document, CampaignPlan const& plan) {
                           "Name it in a treatment, or add a table [transfer].");
 }
 
-Names read_order(TomlTable const& table, Names const& treatments) {
+NameList read_order(TomlTable const& table, NameList const& treatments) {
     auto order = table.strings("order");
     if (!order) return treatments;
     for (std::string const& name : *order) require_known(table, "order", name, treatments);
@@ -193,11 +191,11 @@ Names read_order(TomlTable const& table, Names const& treatments) {
 }
 
 FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
-    Names const bases = names_of(plan.knowledge);
+    NameList const bases = names_of(plan.knowledge);
     FigurePlan figures;
     figures.trajectory = table.string("trajectory").value_or("");
-    figures.figure5 = table.strings("figure5").value_or(Names{});
-    figures.figure6 = table.strings("figure6").value_or(Names{});
+    figures.figure5 = table.strings("figure5").value_or(NameList{});
+    figures.figure6 = table.strings("figure6").value_or(NameList{});
     if (!figures.trajectory.empty()) {
         require_known(table, "trajectory", figures.trajectory, bases);
         if (plan.knowledge_base(figures.trajectory).kind != KnowledgeKind::lineage)
@@ -235,7 +233,7 @@ void read_cluster(TomlTable const& document, CampaignPlan& plan) {
     cluster.warning_seconds =
         static_cast<int>(table->integer("warning_seconds", 1, 3600).value_or(cluster.warning_seconds));
     cluster.concurrent = static_cast<int>(table->integer("concurrent", 1, 100'000).value_or(cluster.concurrent));
-    cluster.options = table->strings("options").value_or(Names{});
+    cluster.options = table->strings("options").value_or(NameList{});
     table->reject_unknown();
 }
 

@@ -10,6 +10,8 @@
 
 namespace lore {
 
+using NameList = std::vector<std::string>;
+
 /// What the readers of a campaign's tables share.
 
 inline constexpr std::int64_t most_runs = 9999;
