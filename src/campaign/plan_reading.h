@@ -10,9 +10,9 @@
 
 namespace lore {
 
-using NameList = std::vector<std::string>;
-
 /// What the readers of a campaign's tables share.
+
+using NameList = std::vector<std::string>;
 
 inline constexpr std::int64_t most_runs = 9999;
 inline constexpr std::int64_t most_generations = 10'000'000;

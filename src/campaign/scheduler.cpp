@@ -31,7 +31,7 @@ Scheduler::Scheduler(CampaignPlan const& plan, CampaignDirectory const& director
 /// Takes over what the disk says. `fresh`: at the start, where an old failure is a reason to try again.
 void Scheduler::settle_from_disk(Task& task, bool fresh) {
     StepState const state = state_of(plan_, directory_, task.step, task.lock ? Locks::ignored : Locks::looked_at);
-    if (task.is_run()) {
+    if (is_run(task.step)) {
         task.generation = state.generation;
         task.generations = state.generations;
         task.best_reward = state.best_reward;
@@ -116,13 +116,13 @@ void Scheduler::launch(Task& task) {
     auto const choice = recorded_choices(plan_, directory_);
     auto const command = command_of(plan_, directory_, options_.launcher, task.step, choice ? &*choice : nullptr);
     std::string const product =
-        task.is_run() ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
+        is_run(task.step) ? directory_.run(task.step.name) : directory_.knowledge(task.step.subject);
     make_directory(std::filesystem::path{product}.parent_path().string());
     task.started_at = task.generation;
     task.pid = start_child(command, directory_.log(task.step.name), task.lock->descriptor());
     task.phase = Phase::working;
     task.watch.reset();
-    if (task.is_run() && options_.launcher.ranks > 1)
+    if (is_run(task.step) && options_.launcher.ranks > 1)
         task.watch.emplace(std::chrono::duration<double>{options_.launcher_patience});
     board_.announce(started_line(task));
 }
@@ -164,7 +164,7 @@ void Scheduler::choose(Task& task) {
 void Scheduler::reap() {
     for (Task& task : tasks_) {
         if (task.pid == 0) continue;
-        if (task.is_run()) {
+        if (is_run(task.step)) {
             RunProgress const progress = last_progress(directory_.run(task.step.name));
             task.generation = progress.generation;
             task.best_reward = progress.best_reward;
@@ -196,7 +196,7 @@ void Scheduler::judge(Task& task, ChildEnd const& end) {
     settle_from_disk(task, false);
     if (task.phase == Phase::done) {
         board_.announce(fmt::format("{} done{}", task.step.name,
-                                    task.is_run() ? ", " + reward_text(task.best_reward, task.reward_unit) : ""));
+                                    is_run(task.step) ? ", " + reward_text(task.best_reward, task.reward_unit) : ""));
         return;
     }
     if (stopping_) return;   // resumed next time
@@ -225,7 +225,7 @@ void Scheduler::give_up(Task& task, std::string const& how) {
 void Scheduler::stop(bool first) {
     stopping_ = true;
     for (Task const& task : tasks_)
-        if (task.pid != 0) ::kill(task.pid, first && task.is_run() ? SIGUSR1 : SIGTERM);
+        if (task.pid != 0) ::kill(task.pid, first && is_run(task.step) ? SIGUSR1 : SIGTERM);
 }
 
 void Scheduler::forget_ended() {

@@ -86,7 +86,11 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
         if (auto const others = other_settings(plan, treatment, run); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
-        if (auto const others = other_inputs(plan, treatment, planned.founders_from, *manifest); !others.empty())
+        std::string const& policy = treatment.policy_of;
+        auto const choice =
+            policy.empty() ? std::nullopt : recorded_choice(directory, plan.knowledge_base(policy).source);
+        CommandContext const context{plan, directory, choice ? &*choice : nullptr};
+        if (auto const others = other_inputs(treatment, context, planned.founders_from, *manifest); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
         if (!fs::exists(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));

@@ -41,8 +41,6 @@ struct Task {
     pid_t pid = 0;             ///< of the program at work on it; 0: none
     std::optional<FileLock> lock;
     std::optional<LauncherWatch> watch;   ///< of a run of several ranks
-
-    bool is_run() const { return lore::is_run(step); }
 };
 
 inline int count(std::vector<Task> const& tasks, Phase phase) {

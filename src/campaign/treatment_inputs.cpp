@@ -7,6 +7,7 @@
 #include <lore/experiment/run_directory.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -14,12 +15,6 @@
 namespace lore {
 
 namespace {
-
-/// "DIRECTORY/knowledge/NAME.lorekb", as CampaignDirectory has it.
-bool is_base(std::filesystem::path const& path, std::string const& knowledge) {
-    std::filesystem::path const usual = CampaignDirectory{"."}.knowledge(knowledge);
-    return path.filename() == usual.filename() && path.parent_path().filename() == usual.parent_path().filename();
-}
 
 // ---- knowledge = "kb1": a base for the reward ----
 
@@ -62,9 +57,6 @@ std::vector<std::string> after_knowledge(CampaignPlan const&, Treatment const& t
 std::vector<std::string> knowledge_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--kb", context.directory.knowledge(treatment.knowledge)};
 }
-bool is_knowledge(std::filesystem::path const& path, CampaignPlan const&, Treatment const& treatment) {
-    return is_base(path, treatment.knowledge);
-}
 
 // ---- clone_of = "kb1", policy_of = "kb1": founders ----
 
@@ -76,9 +68,6 @@ std::vector<std::string> after_clone(CampaignPlan const&, Treatment const& treat
 }
 std::vector<std::string> clone_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--founders", context.directory.knowledge(treatment.clone_of)};
-}
-bool is_clone(std::filesystem::path const& path, CampaignPlan const&, Treatment const& treatment) {
-    return is_base(path, treatment.clone_of);
 }
 
 void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
@@ -95,25 +84,25 @@ std::vector<std::string> after_policy(CampaignPlan const& plan, Treatment const&
 std::vector<std::string> policy_arguments(Treatment const& treatment, CommandContext const& context) {
     return {"--founders", source_run_of(context.plan.knowledge_base(treatment.policy_of), context)};
 }
-/// Of which run, the campaign's choice says, and that is kept.
-bool is_policy(std::filesystem::path const& path, CampaignPlan const& plan, Treatment const& treatment) {
-    std::string const& source = plan.knowledge_base(treatment.policy_of).source;
-    return path.filename() == run_file::lineage && path.parent_path().parent_path().filename() == source;
+
+/// Whether a file of a manifest is the one that a run was to read, or lies in the run whose founders it was to take.
+bool is_same(std::filesystem::path read, std::filesystem::path const& wanted) {
+    if (read.filename() == run_file::lineage) read = read.parent_path();
+    return read.filename() == wanted.filename() && read.parent_path().filename() == wanted.parent_path().filename();
 }
 
 constexpr TreatmentInput inputs[] = {
     {"knowledge", "shaping", &Treatment::knowledge, fit_knowledge, after_knowledge, knowledge_arguments,
-     file_role::knowledge, is_knowledge},
-    {"clone_of", "clone", &Treatment::clone_of, fit_clone, after_clone, clone_arguments, file_role::founders, is_clone},
-    {"policy_of", "policy", &Treatment::policy_of, fit_policy, after_policy, policy_arguments, file_role::founders,
-     is_policy},
+     file_role::knowledge},
+    {"clone_of", "clone", &Treatment::clone_of, fit_clone, after_clone, clone_arguments, file_role::founders},
+    {"policy_of", "policy", &Treatment::policy_of, fit_policy, after_policy, policy_arguments, file_role::founders},
 };
 
 }   // namespace
 
 std::span<TreatmentInput const> treatment_inputs() { return inputs; }
 
-std::string other_inputs(CampaignPlan const& plan, Treatment const& treatment, std::string const& founders_from,
+std::string other_inputs(Treatment const& treatment, CommandContext const& context, std::string const& founders_from,
                          Manifest const& manifest) {
     for (std::string_view const role : {file_role::knowledge, file_role::founders}) {
         FileRecord const* const read = find_role(manifest.inputs, role);
@@ -125,8 +114,11 @@ std::string other_inputs(CampaignPlan const& plan, Treatment const& treatment, s
             if (read != nullptr && !from_elsewhere) return fmt::format("with {} as {}", read->path, role);
         } else if (read == nullptr) {
             return fmt::format("without {} = {}", wanted->key, treatment.*wanted->name);
-        } else if (!wanted->is_read(read->path, plan, treatment)) {
-            return fmt::format("with {}, not with {} = {}", read->path, wanted->key, treatment.*wanted->name);
+        } else {
+            std::filesystem::path const path = wanted->arguments(treatment, context).back();
+            bool const not_chosen = path.filename() == "?";   // the choice was lost, and will be made again
+            if (!not_chosen && !is_same(read->path, path))
+                return fmt::format("with {}, not with {} = {}", read->path, wanted->key, treatment.*wanted->name);
         }
     }
     return "";

@@ -6,7 +6,6 @@
 #include <lore/experiment/config.h>
 #include <lore/experiment/manifest.h>
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,17 +27,15 @@ struct TreatmentInput {
     std::vector<std::string> (*prepare)(CampaignPlan const&, Treatment const&, std::vector<Step>&);
     /// Of lore-evolve, after all others.
     std::vector<std::string> (*arguments)(Treatment const&, CommandContext const&);
-    std::string_view role;   ///< in the manifests of the runs: a file_role
-    /// Whether a file of a manifest, of that role, is what runs of this treatment read. Directories of campaigns may
-    /// have moved: only the end of the path counts.
-    bool (*is_read)(std::filesystem::path const&, CampaignPlan const&, Treatment const&);
+    std::string_view role;   ///< in the manifests of the runs, of what the arguments end with: a file_role
 };
 
 std::span<TreatmentInput const> treatment_inputs();
 
 /// In what the files that a finished run read from other steps are not those of its treatment, in a few words; empty if
-/// they are. `founders_from`: of its configuration, which may name founders that come from no step.
-std::string other_inputs(CampaignPlan const&, Treatment const&, std::string const& founders_from, Manifest const&);
+/// they are. Directories of campaigns may have moved: only the ends of paths count. `founders_from`: of its
+/// configuration, which may name founders that come from no step.
+std::string other_inputs(Treatment const&, CommandContext const&, std::string const& founders_from, Manifest const&);
 
 /// Adds a target treatment to the campaign as read so far. Throws UsageError, which names the table: a name that is
 /// taken, or an input that does not fit.

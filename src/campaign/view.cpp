@@ -15,7 +15,7 @@ namespace {
 double work_left(std::vector<Task> const& tasks) {
     std::vector<RunPace> runs;
     for (Task const& task : tasks) {
-        if (!task.is_run()) continue;
+        if (!is_run(task.step)) continue;
         bool const ended = task.phase == Phase::done || task.phase == Phase::failed || task.phase == Phase::blocked;
         runs.push_back({task.step.group, task.generation, task.generations, task.seconds, !ended});
     }
@@ -41,7 +41,7 @@ std::vector<std::string> step_lines(std::vector<Task> const& tasks) {
     std::vector<std::string> lines;
     for (Task const& task : tasks) {
         if (task.phase != Phase::working) continue;
-        bool const has_bar = task.is_run() && task.generations > 0;
+        bool const has_bar = is_run(task.step) && task.generations > 0;
         lines.push_back(has_bar ? run_line(task) : fmt::format("  {:<22} at work", task.step.name));
     }
     return lines;

@@ -214,8 +214,8 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
         sign(state.signature, state.population);
         selection_seconds += watch.lap();
 
-        if (observer && !observer({generation, kind, shaping_serves, ranking.fronts, judged, &state, selection_seconds,
-                                   config.nothing_shown}))
+        if (observer &&
+            !observer({generation, kind, shaping_serves, ranking.fronts, judged, &state, selection_seconds}))
             break;
     }
     return state;

@@ -6,7 +6,7 @@
 
 namespace lore {
 
-GenerationSummary summarize(GenerationReport const& report) {
+GenerationSummary summarize(GenerationReport const& report, double nothing_shown) {
     std::vector<Individual> const& members = report.state->population.members;
     GenerationSummary summary;
     summary.generation = report.generation;
@@ -28,7 +28,7 @@ GenerationSummary summarize(GenerationReport const& report) {
             summary.best_shaping = member.shaping;
             at_max = 0;
         }
-        if (member.shaping == summary.best_shaping && member.shaping != report.nothing_shown) ++at_max;
+        if (member.shaping == summary.best_shaping && member.shaping != nothing_shown) ++at_max;
         ++sharing[member.objectives.value];
     }
     double const count = static_cast<double>(members.size());

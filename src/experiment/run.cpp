@@ -189,12 +189,11 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     EvolutionConfig evolution = run.setup.order.config.evolution;
     evolution.interface = run.setup.manifest.world.interface();
     evolution.feature_values = std::move(feature_values);
-    evolution.nothing_shown = nothing_shown;
     std::uint64_t const seed = run.setup.seed;
     std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);
     WorldRecord const world = run.setup.manifest.world;
-    RunBooks books{std::move(run.setup), std::move(hosts), options.command_line};
+    RunBooks books{std::move(run.setup), std::move(hosts), options.command_line, nothing_shown};
     int const reached = state.population.members.empty() ? -1 : state.population.generation;
     Supervisor supervisor{books, evolution, options, watch, reached, session.size()};
     try {

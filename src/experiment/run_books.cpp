@@ -28,8 +28,8 @@ void renew_digest(RunSetup const& setup) {
 
 }   // namespace
 
-RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line)
-    : setup_(std::move(setup)) {
+RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line, double nothing_shown)
+    : setup_(std::move(setup)), nothing_shown_(nothing_shown) {
     Checkpoint const* const from = setup_.checkpoint ? &*setup_.checkpoint : nullptr;
     if (setup_.has_former_digest) renew_digest(setup_);
     // The configuration comes last: a directory holds a run as soon as it has one, and then has all that it needs.
@@ -69,7 +69,7 @@ double RunBooks::session_seconds() const { return seconds_between(began_, Clock:
 
 GenerationSummary const& RunBooks::add(GenerationReport const& report) {
     auto const before = Clock::now();
-    GenerationSummary row = summarize(report);
+    GenerationSummary row = summarize(report, nothing_shown_);
     row.evaluations += row_.evaluations;
     row.steps += row_.steps;
     row.seconds = former_seconds_ + session_seconds();

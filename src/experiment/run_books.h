@@ -15,7 +15,8 @@ namespace lore {
 /// What a run keeps in its directory while it goes on: progress, archive, checkpoints, manifest.
 class RunBooks {
 public:
-    RunBooks(RunSetup, std::vector<std::string> hosts, std::string command_line);
+    /// `nothing_shown`: as summarize has it.
+    RunBooks(RunSetup, std::vector<std::string> hosts, std::string command_line, double nothing_shown);
 
     /// Enters a generation.
     GenerationSummary const& add(GenerationReport const&);
@@ -38,6 +39,7 @@ private:
     void write_manifest_now();
 
     RunSetup setup_;
+    double nothing_shown_;
     double former_seconds_ = 0;
     std::uint64_t former_steps_ = 0;
     GenerationSummary row_;

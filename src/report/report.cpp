@@ -57,12 +57,17 @@ void check_pools(CampaignPlan const& plan, Results const& results) {
     }
 }
 
+/// Throws Error or UsageError for results that cannot be reported by this plan.
+void check_results(CampaignPlan const& plan, Results const& results) {
+    check_names(plan, results);
+    check_pools(plan, results);
+}
+
 /// Makes the tables from the runs. What cannot be reported, or has a damaged replay beside it, replaces no table.
 void make_tables(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     Results results = collect_results(plan, from);
     results.replays = read_replays(into).replays;
-    check_names(plan, results);
-    check_pools(plan, results);
+    check_results(plan, results);
     write_results(into, results);
 }
 
@@ -85,8 +90,11 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings 
 void write_figures(CampaignDirectory const& into, Figures const& figures) {
     // Figures of a former report that this one does not have would pass for its own.
     for (DirectoryEntry const& entry : entries_in(into.file("figures"))) {
-        std::string const name = std::filesystem::path{entry.path}.stem().string();
-        if ((name.starts_with("figure") || name == "matrix") && !figures.contains(name)) remove_file(entry.path);
+        std::filesystem::path const path{entry.path};
+        std::string const name = path.stem().string();
+        bool const is_picture = path.extension() == ".svg" || path.extension() == ".png";
+        if (is_picture && (name.starts_with("figure") || name == "matrix") && !figures.contains(name))
+            remove_file(entry.path);
     }
     for (auto const& [name, svg] : figures) {
         write_text(into, fmt::format("figures/{}.svg", name), svg);
@@ -118,8 +126,7 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
     if (has_runs) make_tables(given, from, into);
     Results const results = read_results(has_runs ? into : from);
     CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
-    check_names(plan, results);
-    check_pools(plan, results);
+    if (!has_runs) check_results(plan, results);
     Findings const findings = findings_of(plan, results);
     Figures const figures = draw_figures(plan, results, findings);
     write_text(into, "pvalues.csv", comparisons_csv(findings.comparisons));

@@ -155,6 +155,15 @@ TEST_F(BuildsThatAreCompared, must_be_builds_or_commits) {
     EXPECT_EQ(compare("old old --pairs 0").exit_code, 2);
 }
 
+TEST_F(BuildsThatAreCompared, must_share_a_benchmark_of_a_step_if_steps_are_compared) {
+    make_build("old", 20, 30);
+    make_build("other", 20, 30);
+    std::ofstream{scratch.file("other/bin/lore-bench")} << "#!/bin/sh\necho episode/of_another_name\n";
+    test::Ran const ran = compare("old other --pairs 1 --only step");
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.errors, StartsWith("bench-compare: the two builds share no benchmark of a step"));
+}
+
 TEST_F(ReportScripts, keep_the_tables_of_scaling_md_those_of_its_csv) {
     std::string const committed = LORE_SOURCE_DIR "/docs/findings/scaling.md", copy = scratch.file("scaling.md");
     std::filesystem::copy_file(committed, copy);

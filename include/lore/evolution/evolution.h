@@ -33,8 +33,7 @@ struct EvolutionConfig {
     bool use_diversity = true;                   ///< objective BD; measured and reported in any case
     bool use_shaping = false;                    ///< RS is used, as `shaping` says; set where a knowledge base is given
     ShapingConfig shaping;
-    std::vector<double> feature_values;        ///< of the base; rule share alone needs them here
-    double nothing_shown = no_feature_value;   ///< RS of an individual that shows no feature, by rule max
+    std::vector<double> feature_values;   ///< of the base; rule share alone needs them here
     DistanceSchedule distance_schedule;
     MutationConfig mutation;
     NetworkLimits limits;
@@ -54,10 +53,9 @@ struct GenerationReport {
     DistanceKind distance = DistanceKind::adhoc;
     bool shaping_serves = false;   ///< RS stood in the place of BD (ShapingUse::distance)
     int fronts = 0;
-    std::span<Individual const> born;          ///< all that were evaluated in this generation; valid during the call
-    EvolutionState const* state = nullptr;     ///< after selection
-    double selection_seconds = 0;              ///< breeding, ranking and choosing; the farm accounts for the rest [s]
-    double nothing_shown = no_feature_value;   ///< as the configuration says
+    std::span<Individual const> born;        ///< all that were evaluated in this generation; valid during the call
+    EvolutionState const* state = nullptr;   ///< after selection
+    double selection_seconds = 0;            ///< breeding, ranking and choosing; the farm accounts for the rest [s]
 };
 
 /// Called after each generation, the founders' (0) included; false stops evolution.

@@ -28,7 +28,7 @@ struct GenerationSummary {
     friend bool operator==(GenerationSummary const&, GenerationSummary const&) = default;
 };
 
-/// A pure function of the report; seconds stay 0.
-GenerationSummary summarize(GenerationReport const&);
+/// A pure function of these; seconds stay 0. `nothing_shown`: RS of an individual that shows no feature, by rule max.
+GenerationSummary summarize(GenerationReport const&, double nothing_shown = no_feature_value);
 
 }   // namespace lore

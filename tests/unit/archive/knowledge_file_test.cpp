@@ -137,6 +137,24 @@ TEST(KnowledgeFile, gives_back_what_was_written) {
         }
 }
 
+TEST(KnowledgeFiles, that_are_used_together_have_windows_of_one_length) {
+    Scratch const scratch;
+    std::string const a = scratch.file("a.lorekb"), b = scratch.file("b.lorekb"), longer = scratch.file("c.lorekb");
+    write_knowledge_base(a, some_base(3, 7));
+    write_knowledge_base(b, some_base(5, 7));
+    write_knowledge_base(longer, some_base(5, 20));
+    std::vector<KnowledgeBase> const both = read_knowledge_bases({a, b});
+    ASSERT_EQ(both.size(), 2u);
+    expect_equal(both[0], some_base(3, 7));
+    expect_equal(both[1], some_base(5, 7));
+    EXPECT_TRUE(read_knowledge_bases({}).empty());
+    EXPECT_EQ(test::complaint_of<UsageError>([&] {
+                  read_knowledge_bases({a, b, longer});
+              }),
+              "cannot combine " + longer + " with " + a +
+                  " (windows of 20 and of 7 steps). Give knowledge bases of one window length.");
+}
+
 TEST(KnowledgeFile, gives_back_windows_of_any_channels) {
     Scratch const scratch;
     std::string const path = scratch.file("kb.lorekb");

@@ -57,11 +57,14 @@ TEST_F(State, of_a_run_made_with_another_base_or_other_founders_is_failed_and_sa
         std::filesystem::remove_all(directory().run("all"));
         ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
         expect(key + " = \"kb1\"", "");
-        expect("clone_of = \"kb2\"", "not with clone_of = kb2: move ");
+        for (std::string const other : {"clone_of", "policy_of"})
+            expect(other + " = \"kb2\"", "not with " + other + " = kb2: move ");
         expect(given, "it was made without knowledge = kb1_all: move ");
         expect("", " as founders: move ");
         expect("set = [\"founders.from=elsewhere.lore\"]", "");
     }
+    std::filesystem::remove(directory().choice());
+    expect("policy_of = \"kb1\"", "");
 }
 
 TEST_F(State, of_a_run_with_another_seed_is_failed) {

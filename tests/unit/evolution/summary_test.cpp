@@ -78,11 +78,11 @@ TEST(Summarize, has_no_share_at_the_best_shaping_where_nobody_matched_a_feature_
     state.population.members = {member(0, 0, -6, 36, 0), member(0, 0, -6, 36, 0)};
     GenerationReport report;
     report.state = &state;
-    report.nothing_shown = -6;   // of a base whose smallest value is -5
-    EXPECT_EQ(summarize(report).best_shaping, -6);
-    EXPECT_EQ(summarize(report).shaping_at_max, 0.0);
+    double const nothing_shown = -6;   // of a base whose smallest value is -5
+    EXPECT_EQ(summarize(report, nothing_shown).best_shaping, -6);
+    EXPECT_EQ(summarize(report, nothing_shown).shaping_at_max, 0.0);
     state.population.members[1].shaping = -1;
-    EXPECT_EQ(summarize(report).shaping_at_max, 0.5) << "a value that a feature may have";
+    EXPECT_EQ(summarize(report, nothing_shown).shaping_at_max, 0.5) << "a value that a feature may have";
 }
 
 TEST(Summarize, has_the_best_reward_also_where_all_are_negative) {
