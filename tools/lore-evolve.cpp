@@ -10,6 +10,7 @@
 
 #include <lore/core/error.h>
 #include <lore/core/isa.h>
+#include <lore/core/toml.h>
 #include <lore/experiment/run.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
@@ -89,6 +90,13 @@ ExitCode work(Session const& session, CommandLine& line) {
                         "The run is saved; manifest.json in its directory has the signature.");
 }
 
+/// A path as it is, several as a list in TOML.
+std::string setting_text(std::vector<std::string> paths) {
+    if (paths.size() == 1) return paths[0];
+    for (std::string& path : paths) path = toml_string(path);
+    return fmt::format("[{}]", fmt::join(paths, ", "));
+}
+
 /// Reads the command line; an exit code where there is nothing else to do (--help, or a mistake).
 std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& line) {
     CLI::App app{"Evolves robot controllers (NSGA-II with dynamic behavioral diversity) and archives their lineages."};
@@ -105,10 +113,10 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
         ->expected(1)
         ->take_all();
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
-    std::string founders;
+    std::vector<std::string> founders;
     app.add_option("--founders", founders,
-                   "knowledge base to clone founders from, founders file, or run whose last population they come from: "
-                   "--set founders.from=FILE")
+                   "knowledge bases to clone founders from, founders files, or runs whose last populations they come "
+                   "from; several share alike: --set founders.from=FILE")
         ->type_name("FILE|DIR");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
@@ -119,7 +127,11 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
     if (line.bench) return std::nullopt;
-    if (!founders.empty()) line.run.overrides.push_back("founders.from=" + founders);
+    if (line.run.config_path.empty() && founders.size() > 1 && founders.back().ends_with(".toml"))
+        throw UsageError("no configuration is given",
+                         fmt::format("{} stands behind --founders, which takes all that follows", founders.back()),
+                         "Name the configuration first.");
+    if (!founders.empty()) line.run.overrides.push_back("founders.from=" + setting_text(std::move(founders)));
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.config_path.empty() && line.run.directory.empty())
         throw UsageError("nothing to do", "neither a configuration nor --out DIR is given",

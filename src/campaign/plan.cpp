@@ -43,7 +43,8 @@ Treatment read_inputs(TomlTable const& table, Defaults const& defaults, std::str
     Treatment treatment;
     treatment.name = std::move(name);
     treatment.label = table.string("label").value_or(treatment.name);
-    for (TreatmentInput const& input : treatment_inputs()) treatment.*input.name = table.string(input.key).value_or("");
+    for (TreatmentInput const& input : treatment_inputs())
+        treatment.*input.names = table.one_or_more(input.key).value_or(NameList{});
     treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
     treatment.first_seed =
         static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
@@ -68,7 +69,7 @@ Treatment read_treatment(TomlTable const& table, Defaults const& defaults, std::
 /// Of runs that begin with nothing.
 void refuse_inputs(TomlTable const& table, Treatment const& treatment, std::string_view what) {
     for (TreatmentInput const& input : treatment_inputs())
-        if (!(treatment.*input.name).empty())
+        if (!(treatment.*input.names).empty())
             table.fail(input.key, fmt::format("the {} takes nothing from other steps", what), "Remove it.");
 }
 

@@ -86,9 +86,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
         if (auto const others = other_settings(plan, treatment, run); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
-        std::string const& policy = treatment.policy_of;
-        auto const choice =
-            policy.empty() ? std::nullopt : recorded_choice(directory, plan.knowledge_base(policy).source);
+        auto const choice = treatment.policy_of.empty() ? std::nullopt : recorded_choices(plan, directory);
         CommandContext const context{plan, directory, choice ? &*choice : nullptr};
         if (auto const others = other_inputs(treatment, context, planned.founders_from, *manifest); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));

@@ -56,7 +56,7 @@ std::vector<std::string> build_command(CommandContext const& context, Launcher c
 void add_runs(CampaignPlan const& plan, Treatment const& treatment, std::vector<Step>& steps) {
     std::vector<std::string> after;
     for (TreatmentInput const& input : treatment_inputs()) {
-        if ((treatment.*input.name).empty()) continue;
+        if ((treatment.*input.names).empty()) continue;
         std::vector<std::string> const groups = input.prepare(plan, treatment, steps);
         after.insert(after.end(), groups.begin(), groups.end());
     }
@@ -171,7 +171,7 @@ std::vector<std::string> command_of(CampaignPlan const& plan, CampaignDirectory 
         auto command =
             evolve_command(plan, launcher, treatment, seed_of(treatment, step.run), directory.run(step.name));
         for (TreatmentInput const& input : treatment_inputs()) {
-            if ((treatment.*input.name).empty()) continue;
+            if ((treatment.*input.names).empty()) continue;
             auto const words = input.arguments(treatment, context);
             command.insert(command.end(), words.begin(), words.end());
         }

@@ -90,7 +90,7 @@ std::optional<TransferRequest> read_transfer(TomlTable const& document, Campaign
     TransferRequest request{*table, &read_method(*table)};
     request.run = static_cast<int>(table->integer("run", 1, most_runs).value_or(0));
     request.top = static_cast<int>(table->integer("top", 1, 100'000'000).value_or(0));
-    if (request.top > 0 && request.method->name == &Treatment::policy_of)
+    if (request.top > 0 && request.method->names == &Treatment::policy_of)
         table->fail("top", "a policy takes genomes, not features", "Remove it.");
     table->reject_unknown();
     return request;
@@ -130,7 +130,7 @@ void add_transfer_treatments(TransferRequest const& request, CampaignPlan& plan)
             if (of_sources[s] && of_tasks[t]) pair.misfit = why_misfit(*of_sources[s], *of_tasks[t]);
             if (pair.misfit.empty()) {
                 Treatment helped = treatment_of(task, source.name, fmt::format("from {}", source.label));
-                helped.*request.method->name = base_of(request, source);
+                helped.*request.method->names = {base_of(request, source)};
                 pair.treatment = helped.name;
                 add_treatment(request.table, std::move(helped), plan);
             }

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lore {
 
@@ -39,50 +40,77 @@ void fit_windows(TomlTable const& table, std::string const& config_path, Treatme
     if (read != base)
         table.fail("set",
                    fmt::format("it asks for windows of {} steps and threshold {}, and '{}' has {} and {}",
-                               read.window_length, read.match_threshold, treatment.knowledge, base.window_length,
+                               read.window_length, read.match_threshold, treatment.knowledge[0], base.window_length,
                                base.match_threshold),
                    "Leave them out: a treatment takes those of its base.");
 }
 
 void fit_knowledge(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
-    require_known(table, "knowledge", treatment.knowledge, names_of(plan.knowledge));
+    if (treatment.knowledge.size() > 1)
+        table.fail("knowledge", "one base shapes the reward, and it names several", "Name one.");
+    require_known(table, "knowledge", treatment.knowledge[0], names_of(plan.knowledge));
     fit_windows(table, plan.config_path(treatment), treatment,
-                windows_of(plan, plan.knowledge_base(treatment.knowledge)));
+                windows_of(plan, plan.knowledge_base(treatment.knowledge[0])));
 }
 
 std::vector<std::string> after_knowledge(CampaignPlan const&, Treatment const& treatment, std::vector<Step>&) {
-    return {knowledge_step(treatment.knowledge)};
+    return {knowledge_step(treatment.knowledge[0])};
 }
 
 std::vector<std::string> knowledge_arguments(Treatment const& treatment, CommandContext const& context) {
-    return {"--kb", context.directory.knowledge(treatment.knowledge)};
+    return {"--kb", context.directory.knowledge(treatment.knowledge[0])};
 }
 
-// ---- clone_of = "kb1", policy_of = "kb1": founders ----
+// ---- clone_of = "kb1", policy_of = ["kb1", "kb2"]: founders ----
+
+void require_each(TomlTable const& table, std::string_view key, NameList const& names, NameList const& known) {
+    for (std::string const& name : names) {
+        require_known(table, key, name, known);
+        if (std::count(names.begin(), names.end(), name) > 1)
+            table.fail(key, fmt::format("it names '{}' twice", name), "Name each once.");
+    }
+}
+
+/// "--founders A B ...", of each name what `place` says.
+std::vector<std::string> founders_arguments(NameList const& names, auto const& place) {
+    std::vector<std::string> words{"--founders"};
+    for (std::string const& name : names) words.push_back(place(name));
+    return words;
+}
 
 void fit_clone(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
-    require_known(table, "clone_of", treatment.clone_of, names_of(plan.knowledge));
+    require_each(table, "clone_of", treatment.clone_of, names_of(plan.knowledge));
 }
 std::vector<std::string> after_clone(CampaignPlan const&, Treatment const& treatment, std::vector<Step>&) {
-    return {knowledge_step(treatment.clone_of)};
+    NameList groups;
+    for (std::string const& name : treatment.clone_of) groups.push_back(knowledge_step(name));
+    return groups;
 }
 std::vector<std::string> clone_arguments(Treatment const& treatment, CommandContext const& context) {
-    return {"--founders", context.directory.knowledge(treatment.clone_of)};
+    return founders_arguments(treatment.clone_of,
+                              [&](std::string const& name) { return context.directory.knowledge(name); });
 }
 
 void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
     std::vector<KnowledgePlan> lineages;
     for (KnowledgePlan const& one : plan.knowledge)
         if (one.kind == KnowledgeKind::lineage) lineages.push_back(one);
-    require_known(table, "policy_of", treatment.policy_of, names_of(lineages));
+    require_each(table, "policy_of", treatment.policy_of, names_of(lineages));
     if (!treatment.clone_of.empty())
         table.fail("policy_of", "founders come from one place, and there is clone_of", "Leave one of the two out.");
 }
 std::vector<std::string> after_policy(CampaignPlan const& plan, Treatment const& treatment, std::vector<Step>&) {
-    return {choose_step(plan.knowledge_base(treatment.policy_of).source)};
+    NameList groups;
+    for (std::string const& name : treatment.policy_of) {
+        std::string group = choose_step(plan.knowledge_base(name).source);
+        if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(std::move(group));
+    }
+    return groups;
 }
 std::vector<std::string> policy_arguments(Treatment const& treatment, CommandContext const& context) {
-    return {"--founders", source_run_of(context.plan.knowledge_base(treatment.policy_of), context)};
+    return founders_arguments(treatment.policy_of, [&](std::string const& name) {
+        return source_run_of(context.plan.knowledge_base(name), context);
+    });
 }
 
 /// Whether a file of a manifest is the one that a run was to read, or lies in the run whose founders it was to take.
@@ -102,23 +130,28 @@ constexpr TreatmentInput inputs[] = {
 
 std::span<TreatmentInput const> treatment_inputs() { return inputs; }
 
-std::string other_inputs(Treatment const& treatment, CommandContext const& context, std::string const& founders_from,
-                         Manifest const& manifest) {
+std::string other_inputs(Treatment const& treatment, CommandContext const& context,
+                         std::vector<std::string> const& founders_from, Manifest const& manifest) {
     for (std::string_view const role : {file_role::knowledge, file_role::founders}) {
-        FileRecord const* const read = find_role(manifest.inputs, role);
+        std::vector<FileRecord> const read = with_role(manifest.inputs, role);
         auto const wanted = std::find_if(std::begin(inputs), std::end(inputs), [&](TreatmentInput const& input) {
-            return input.role == role && !(treatment.*input.name).empty();
+            return input.role == role && !(treatment.*input.names).empty();
         });
         if (wanted == std::end(inputs)) {
             bool const from_elsewhere = role == file_role::founders && !founders_from.empty();
-            if (read != nullptr && !from_elsewhere) return fmt::format("with {} as {}", read->path, role);
-        } else if (read == nullptr) {
-            return fmt::format("without {} = {}", wanted->key, treatment.*wanted->name);
-        } else {
-            std::filesystem::path const path = wanted->arguments(treatment, context).back();
+            if (!read.empty() && !from_elsewhere) return fmt::format("with {} as {}", read[0].path, role);
+            continue;
+        }
+        NameList const& names = treatment.*wanted->names;
+        if (read.size() != names.size())
+            return fmt::format("{} {} = {}", read.empty() ? "without" : "not with", wanted->key,
+                               fmt::join(names, ", "));
+        NameList const arguments = wanted->arguments(treatment, context);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            std::filesystem::path const path = arguments[i + 1];
             bool const not_chosen = path.filename() == "?";   // the choice was lost, and will be made again
-            if (!not_chosen && !is_same(read->path, path))
-                return fmt::format("with {}, not with {} = {}", read->path, wanted->key, treatment.*wanted->name);
+            if (!not_chosen && !is_same(read[i].path, path))
+                return fmt::format("with {}, not with {} = {}", read[i].path, wanted->key, names[i]);
         }
     }
     return "";
@@ -131,7 +164,7 @@ void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& pl
     require_new(table, treatment.name, names);
     read_windows(table, plan.config_path(treatment), treatment.overrides);
     for (TreatmentInput const& input : treatment_inputs())
-        if (!(treatment.*input.name).empty()) input.fit(table, plan, treatment);
+        if (!(treatment.*input.names).empty()) input.fit(table, plan, treatment);
     plan.targets.push_back(std::move(treatment));
 }
 

@@ -18,8 +18,8 @@ namespace lore {
 /// names; nothing else asks which inputs there are.
 struct TreatmentInput {
     std::string_view key;
-    std::string_view method;        ///< what [transfer] calls it
-    std::string Treatment::*name;   ///< what the key says; empty: the treatment does without
+    std::string_view method;                      ///< what [transfer] calls it
+    std::vector<std::string> Treatment::*names;   ///< what the key says; none: the treatment does without
     /// Throws UsageError if the campaign, as read so far, has nothing of that name or nothing that fits; may add
     /// overrides to the treatment.
     void (*fit)(TomlTable const&, CampaignPlan const&, Treatment&);
@@ -27,7 +27,7 @@ struct TreatmentInput {
     std::vector<std::string> (*prepare)(CampaignPlan const&, Treatment const&, std::vector<Step>&);
     /// Of lore-evolve, after all others.
     std::vector<std::string> (*arguments)(Treatment const&, CommandContext const&);
-    std::string_view role;   ///< in the manifests of the runs, of what the arguments end with: a file_role
+    std::string_view role;   ///< in the manifests of the runs, of the files that the arguments name: a file_role
 };
 
 std::span<TreatmentInput const> treatment_inputs();
@@ -35,7 +35,8 @@ std::span<TreatmentInput const> treatment_inputs();
 /// In what the files that a finished run read from other steps are not those of its treatment, in a few words; empty if
 /// they are. Directories of campaigns may have moved: only the ends of paths count. `founders_from`: of its
 /// configuration, which may name founders that come from no step.
-std::string other_inputs(Treatment const&, CommandContext const&, std::string const& founders_from, Manifest const&);
+std::string other_inputs(Treatment const&, CommandContext const&, std::vector<std::string> const& founders_from,
+                         Manifest const&);
 
 /// Adds a target treatment to the campaign as read so far. Throws UsageError, which names the table: a name that is
 /// taken, or an input that does not fit.

@@ -15,13 +15,13 @@ void check_worlds(CampaignPlan const& plan) {
     for (Treatment const& target : plan.targets) {
         Channels const& channels = opened.of(target);   // stays where it is as more are opened
         for (TreatmentInput const& input : treatment_inputs()) {
-            if ((target.*input.name).empty()) continue;
-            std::string const& from = plan.knowledge_base(target.*input.name).source;
-            Channels const& source = opened.of(plan.treatment(from));
-            if (std::string const why = why_misfit(source, channels); !why.empty())
-                throw UsageError(fmt::format("{}: treatment '{}' cannot take {} = '{}'", plan.path, target.name,
-                                             input.key, target.*input.name),
-                                 why, "Give it a task whose world has the channels of the source task.");
+            for (std::string const& name : target.*input.names) {
+                Channels const& source = opened.of(plan.treatment(plan.knowledge_base(name).source));
+                if (std::string const why = why_misfit(source, channels); !why.empty())
+                    throw UsageError(fmt::format("{}: treatment '{}' cannot take {} = '{}'", plan.path, target.name,
+                                                 input.key, name),
+                                     why, "Give it a task whose world has the channels of the source task.");
+            }
         }
     }
 }

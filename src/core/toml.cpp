@@ -158,6 +158,13 @@ std::optional<std::vector<std::string>> TomlTable::strings(std::string_view key)
     return values;
 }
 
+std::optional<std::vector<std::string>> TomlTable::one_or_more(std::string_view key) const {
+    if (is_array(key)) return strings(key);
+    auto one = string(key);
+    if (!one) return std::nullopt;
+    return one->empty() ? std::vector<std::string>{} : std::vector{*std::move(one)};
+}
+
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) const {
     toml::node const* const node = node_->find(key);
     if (node == nullptr) return std::nullopt;

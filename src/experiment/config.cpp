@@ -99,8 +99,9 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
     }
     if (value.find_first_of("\r\n") != std::string::npos)
         throw UsageError(label, "the value has several lines", "Give one value.");
-    if (setting->kind == Setting::Kind::text && !value.starts_with('"') && !value.starts_with('\''))
-        value = "'" + value + "'";
+    bool const is_text =
+        setting->kind == Setting::Kind::text || (setting->kind == Setting::Kind::paths && !value.starts_with('['));
+    if (is_text && !value.starts_with('"') && !value.starts_with('\'')) value = "'" + value + "'";
     if (setting->kind == Setting::Kind::list && !value.starts_with('[')) {
         std::string list = "['" + value + "']";
         for (std::size_t comma = 0; (comma = list.find(',', comma)) != std::string::npos; comma += 3)
@@ -168,8 +169,8 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
             config.world.folder.empty()
                 ? directory
                 : (std::filesystem::path{directory} / config.world.folder).lexically_normal().string();
-    if (!config.founders_from.empty())
-        config.founders_from = (std::filesystem::path{directory} / config.founders_from).lexically_normal().string();
+    for (std::string& from : config.founders_from)
+        from = (std::filesystem::path{directory} / from).lexically_normal().string();
     std::string origin = name;
     for (std::string const& override : overrides) {
         read_settings(document_of(override, settings), settings);

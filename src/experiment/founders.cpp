@@ -44,16 +44,6 @@ Origin origin_of(std::string const& from, int count, std::uint64_t seed) {
     return {std::move(file.genomes), file.world.channels};
 }
 
-}   // namespace
-
-std::string absolute_path(std::string const& path) {
-    return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal().string();
-}
-
-std::string founders_path(std::string const& from) {
-    return std::filesystem::is_directory(from) ? (std::filesystem::path{from} / run_file::lineage).string() : from;
-}
-
 FileRecord founders_record(std::string const& from) {
     bool const is_run = std::filesystem::is_directory(from);
     std::string const path = founders_path(from);
@@ -68,25 +58,59 @@ FileRecord founders_record(std::string const& from) {
     return record;
 }
 
-std::vector<Genome> read_founder_genomes(std::string const& from, Channels const& channels, NetworkLimits const& limits,
-                                         int count, std::uint64_t seed) {
-    auto [genomes, theirs] = origin_of(from, count, seed);
-    if (std::string const why = why_misfit(theirs, channels); !why.empty())
+void check_fit(std::string const& from, Origin const& origin, Channels const& channels, NetworkLimits const& limits) {
+    if (std::string const why = why_misfit(origin.channels, channels); !why.empty())
         throw UsageError(fmt::format("{} does not fit the run", from), why,
                          "Take founders that were made for this world's channels.");
-    for (std::size_t i = 0; i < genomes.size(); ++i) {
+    for (std::size_t i = 0; i < origin.genomes.size(); ++i) {
+        Genome const& genome = origin.genomes[i];
         auto const refuse = [&](std::string const& reason, std::string_view setting) {
             throw UsageError(fmt::format("{} does not fit the run", from),
                              fmt::format("its genome {} has {}", i, reason),
                              fmt::format("Set {} higher, or take other founders.", setting));
         };
-        if (genomes[i].hidden_count() > limits.max_hidden)
-            refuse(
-                fmt::format("{} hidden neurons, limits.max_hidden is {}", genomes[i].hidden_count(), limits.max_hidden),
-                "limits.max_hidden");
-        if (std::cmp_greater(genomes[i].edges.size(), limits.max_edges))
-            refuse(fmt::format("{} connections, limits.max_edges is {}", genomes[i].edges.size(), limits.max_edges),
+        if (genome.hidden_count() > limits.max_hidden)
+            refuse(fmt::format("{} hidden neurons, limits.max_hidden is {}", genome.hidden_count(), limits.max_hidden),
+                   "limits.max_hidden");
+        if (std::cmp_greater(genome.edges.size(), limits.max_edges))
+            refuse(fmt::format("{} connections, limits.max_edges is {}", genome.edges.size(), limits.max_edges),
                    "limits.max_edges");
+    }
+}
+
+}   // namespace
+
+std::string absolute_path(std::string const& path) {
+    return std::filesystem::absolute(path.empty() ? "." : path).lexically_normal().string();
+}
+
+std::string founders_path(std::string const& from) {
+    return std::filesystem::is_directory(from) ? (std::filesystem::path{from} / run_file::lineage).string() : from;
+}
+
+std::vector<FileRecord> founders_records(std::vector<std::string> const& from) {
+    std::vector<FileRecord> records;
+    for (std::string const& one : from) records.push_back(founders_record(one));
+    return records;
+}
+
+std::vector<Genome> read_founder_genomes(std::vector<std::string> const& from, Channels const& channels,
+                                         NetworkLimits const& limits, int count, std::uint64_t seed) {
+    int const origins = static_cast<int>(from.size());
+    if (origins > count)
+        throw UsageError(fmt::format("founders come from {} origins", origins),
+                         fmt::format("a population of {} has no share for each", count),
+                         "Name fewer, or set evolution.population higher.");
+    std::vector<Origin> parts;
+    for (std::string const& one : from) {
+        parts.push_back(origin_of(one, (count + origins - 1) / origins, seed));
+        check_fit(one, parts.back(), channels, limits);
+    }
+    if (origins == 1) return std::move(parts[0].genomes);
+    std::vector<Genome> genomes;
+    for (std::size_t i = 0; std::cmp_less(i, count); ++i) {
+        std::vector<Genome> const& part = parts[i % parts.size()].genomes;
+        genomes.push_back(part[i / parts.size() % part.size()]);
     }
     return genomes;
 }

@@ -13,13 +13,15 @@ std::string absolute_path(std::string const& path);
 /// The file behind the setting founders.from: the lineage.lore of a run's directory, or the founders file or knowledge
 /// base itself.
 std::string founders_path(std::string const& from);
-/// That file with checksum and kind. Throws UsageError: there is none.
-FileRecord founders_record(std::string const& from);
+/// These files with checksum and kind. Throws UsageError: one is not there.
+std::vector<FileRecord> founders_records(std::vector<std::string> const& from);
 
-/// The genomes that founders come from: the last population of a run in the order in which selection left it
-/// (lineage.lore), a founders file's, or `count` clones of a knowledge base, drawn by `seed` (knowledge/clone.h).
-/// Throws Error: missing or damaged; UsageError: made for other channels, or beyond the limits.
-std::vector<Genome> read_founder_genomes(std::string const& from, Channels const&, NetworkLimits const&, int count,
-                                         std::uint64_t seed);
+/// The genomes that founders come from, as many from each origin, dealt in turn: genome i is the next of origin i
+/// modulo their number. The genomes of a run are its last population in the order in which selection left it
+/// (lineage.lore); of a knowledge base they are clones, drawn by `seed` (knowledge/clone.h). Of one founders file or
+/// run, all; else `count`. Throws Error: missing or damaged; UsageError: made for other channels, beyond the limits, or
+/// more origins than `count`.
+std::vector<Genome> read_founder_genomes(std::vector<std::string> const& from, Channels const&, NetworkLimits const&,
+                                         int count, std::uint64_t seed);
 
 }   // namespace lore

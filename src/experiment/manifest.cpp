@@ -163,6 +163,13 @@ FileRecord const* find_role(std::vector<FileRecord> const& files, std::string_vi
     return found == files.end() ? nullptr : &*found;
 }
 
+std::vector<FileRecord> with_role(std::vector<FileRecord> const& files, std::string_view role) {
+    std::vector<FileRecord> found;
+    std::copy_if(files.begin(), files.end(), std::back_inserter(found),
+                 [&](FileRecord const& file) { return file.role == role; });
+    return found;
+}
+
 FileRecord const* find_path(std::vector<FileRecord> const& files, std::string_view path) {
     auto const found = std::find_if(files.begin(), files.end(), [&](auto const& file) { return file.path == path; });
     return found == files.end() ? nullptr : &*found;

@@ -79,22 +79,28 @@ void find_checkpoint(RunSetup& setup) {
 /// The founders are those that the run was started with, wherever they are now. Once generation 0 is past, the run does
 /// not need them.
 void find_founders(RunSetup& setup) {
-    std::string& from = setup.order.config.founders_from;
-    if (!from.empty()) from = absolute_path(from);
-    FileRecord const* const recorded = find_role(setup.manifest.inputs, file_role::founders);
+    std::vector<std::string>& from = setup.order.config.founders_from;
+    for (std::string& one : from) one = absolute_path(one);
+    std::vector<FileRecord> const recorded = with_role(setup.manifest.inputs, file_role::founders);
     bool const is_known = !setup.manifest.sessions.empty();   // else the digest tells
-    if (is_known && from.empty() != (recorded == nullptr))
+    if (is_known && from.size() != recorded.size())
         throw cannot_go_on(setup, " with other founders",
-                           recorded == nullptr ? std::string{"it was started with random ones"}
-                                               : fmt::format("it was started with those of {}", recorded->path),
+                           recorded.empty()
+                               ? std::string{"it was started with random ones"}
+                               : fmt::format("it was started with those of {}", setup.founders_origin()->path),
                            "Set founders.from as it was, or start in another directory.");
-    if (from.empty() || (setup.checkpoint && recorded != nullptr && founders_path(from) == recorded->path)) return;
-    FileRecord const now = founders_record(from);
-    if (recorded != nullptr && recorded->checksum != now.checksum)
-        throw cannot_go_on(setup, " with other founders",
-                           fmt::format("{} is not the file it was started with", now.path),
-                           "Give that one with --founders, or start in another directory.");
-    if (recorded == nullptr) setup.manifest.inputs.push_back(now);
+    auto const is_at = [](std::string const& one, FileRecord const& record) {
+        return founders_path(one) == record.path;
+    };
+    bool const all_are_there = std::equal(from.begin(), from.end(), recorded.begin(), recorded.end(), is_at);
+    if (from.empty() || (setup.checkpoint && all_are_there)) return;
+    std::vector<FileRecord> now = founders_records(from);
+    for (std::size_t i = 0; i < recorded.size(); ++i)
+        if (recorded[i].checksum != now[i].checksum)
+            throw cannot_go_on(setup, " with other founders",
+                               fmt::format("{} is not the file it was started with", now[i].path),
+                               "Give that one with --founders, or start in another directory.");
+    if (recorded.empty()) setup.manifest.inputs.insert(setup.manifest.inputs.end(), now.begin(), now.end());
     if (!setup.checkpoint) setup.founders_are_due = true;
 }
 

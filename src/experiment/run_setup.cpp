@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr char several_kinds[] = "several kinds";   ///< FoundersOrigin::kind of founders that are not all of one
+
 /// A run that lost its configuration is not written over.
 void refuse_remains(RunSetup const& setup) {
     for (char const* const remains : {run_file::checkpoint, run_file::older_checkpoint, run_file::lineage,
@@ -45,9 +47,9 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     if (!options.knowledge_base.empty())
         setup.manifest.inputs.push_back(
             record_of(file_role::knowledge, options.knowledge_base, setup.order.knowledge_path));
-    if (std::string& from = setup.order.config.founders_from; !from.empty()) {
-        from = absolute_path(from);
-        setup.manifest.inputs.push_back(founders_record(from));
+    if (std::vector<std::string>& from = setup.order.config.founders_from; !from.empty()) {
+        for (std::string& one : from) one = absolute_path(one);
+        for (FileRecord& record : founders_records(from)) setup.manifest.inputs.push_back(std::move(record));
         setup.founders_are_due = true;
     }
 }
@@ -114,9 +116,17 @@ void settle(PreparedRun& run, RunOptions const& options) {
 std::string RunSetup::file(std::string_view name) const { return (fs::path{directory} / name).string(); }
 
 std::optional<FoundersOrigin> RunSetup::founders_origin() const {
-    FileRecord const* const record = find_role(manifest.inputs, file_role::founders);
-    if (record == nullptr) return std::nullopt;
-    return FoundersOrigin{record->kind, record->path, record->checksum};
+    std::optional<FoundersOrigin> all;
+    for (FileRecord const& record : with_role(manifest.inputs, file_role::founders)) {
+        if (!all) {
+            all = {record.kind, record.path, record.checksum};
+            continue;
+        }
+        if (all->kind != record.kind) all->kind = several_kinds;
+        all->path += ", " + record.path;
+        all->checksum += ", " + record.checksum;
+    }
+    return all;
 }
 
 PreparedRun prepare_run(RunOptions const& options) {

@@ -102,11 +102,17 @@ public:
             [=, &words](TomlTable const& table) {
                 if (auto read = table.strings(key)) words = *std::move(read);
             },
-            [&words] {
-                std::vector<std::string> all;
-                for (std::string const& word : words) all.push_back(toml_string(word));
-                return fmt::format("[{}]", fmt::join(all, ", "));
-            });
+            [&words] { return list_of(words); });
+    }
+    /// A path or a list of them, and written so.
+    void add_paths(std::string key, std::vector<std::string>& paths, std::string_view doc,
+                   Affects affects = Affects::results) {
+        push(
+            key, std::string{doc}, Setting::Kind::paths, affects,
+            [=, &paths](TomlTable const& table) {
+                if (auto read = table.one_or_more(key)) paths = *std::move(read);
+            },
+            [&paths] { return paths.size() > 1 ? list_of(paths) : toml_string(paths.empty() ? "" : paths[0]); });
     }
     /// A table of any keys, kept as lines (TomlTable::lines). One that is read later adds to it, and wins.
     void add_settings(std::string key, std::string& lines, std::string_view doc, Affects affects = Affects::results) {
@@ -119,6 +125,11 @@ public:
     }
 
 private:
+    static std::string list_of(std::vector<std::string> const& words) {
+        std::vector<std::string> all;
+        for (std::string const& word : words) all.push_back(toml_string(word));
+        return fmt::format("[{}]", fmt::join(all, ", "));
+    }
     static std::vector<std::string> split(std::string_view lines) {
         std::vector<std::string> all;
         for (std::size_t end = 0; (end = lines.find('\n')) != std::string_view::npos; lines.remove_prefix(end + 1))
@@ -203,10 +214,10 @@ std::vector<Setting> settings_of(ExperimentConfig& config) {
 
     d.section("founders");
     // As with the arena, what lies there counts.
-    d.add(
+    d.add_paths(
         "from", config.founders_from,
-        "knowledge base to clone founders from, founders file, or run whose last population they come from; empty: all "
-        "are random",
+        "knowledge bases to clone founders from, founders files, or runs whose last populations they come from, "
+        "in equal shares; empty: all are random",
         Affects::nothing);
     d.add("share", evolution.founding.share, 0.0, 1.0, "of the founders that come from there; the others are random");
     d.add("mutate", evolution.founding.mutate, "one mutation each of those that come from there");

@@ -140,9 +140,9 @@ Json inputs_of_run(Story& story, Step const& step, std::string const& id, Manife
     story.add_file(inputs, story.moved.config_path(treatment));
     if (auto const world = story.worlds.find(treatment.name); world != story.worlds.end())
         for (std::string const& place : world->second) story.add_file(inputs, place);
-    for (std::string const& base : {treatment.knowledge, treatment.clone_of})
-        if (!base.empty()) story.add_file(inputs, knowledge_path(base));
-    if (!treatment.policy_of.empty()) story.add_source_run(inputs, treatment.policy_of);
+    for (auto const* const bases : {&treatment.knowledge, &treatment.clone_of})
+        for (std::string const& base : *bases) story.add_file(inputs, knowledge_path(base));
+    for (std::string const& base : treatment.policy_of) story.add_source_run(inputs, base);
     story.add_value(inputs, id, "seed", std::to_string(manifest.seed));
     return inputs;
 }

@@ -27,9 +27,16 @@ double area_under(std::vector<double> const& curve, int generations) {
     return area;
 }
 
-/// The base that the treatment takes something of, if any.
-std::string const& base_of(Treatment const& treatment) {
+/// The bases that the treatment takes something of, if any.
+std::vector<std::string> const& bases_of(Treatment const& treatment) {
     return treatment.knowledge.empty() ? treatment.clone_of : treatment.knowledge;
+}
+
+/// The bases by Algorithm 1 that these were derived from: those of the source runs.
+std::vector<std::string> origins_of(CampaignPlan const& plan, std::vector<std::string> const& bases) {
+    std::vector<std::string> origins;
+    for (std::string const& name : bases) origins.push_back(origin_of(plan, plan.knowledge_base(name)).name);
+    return origins;
 }
 
 Treatment const* find_target(CampaignPlan const& plan, auto const& fits) {
@@ -96,15 +103,15 @@ std::vector<LeadRow> leads_of(CampaignPlan const& plan, std::vector<Milestone> c
     std::vector<LeadRow> rows;
     for (std::string const& name : plan.report_order) {
         Treatment const& treatment = plan.treatment(name);
-        if (base_of(treatment).empty()) continue;
-        std::string const& origin = origin_of(plan, plan.knowledge_base(base_of(treatment))).name;
+        if (bases_of(treatment).empty()) continue;
+        std::vector<std::string> const origins = origins_of(plan, bases_of(treatment));
         Treatment const* const policy = find_target(plan, [&](Treatment const& t) {
-            return t.policy_of == origin && t.knowledge.empty() && t.name != name && t.config == treatment.config &&
+            return t.policy_of == origins && t.knowledge.empty() && t.name != name && t.config == treatment.config &&
                    t.target == treatment.target;
         });
         if (policy == nullptr) continue;
         Treatment const* const none = find_target(plan, [&](Treatment const& t) {
-            return base_of(t).empty() && t.policy_of.empty() && t.config == policy->config &&
+            return bases_of(t).empty() && t.policy_of.empty() && t.config == policy->config &&
                    t.target == policy->target;
         });
         if (none == nullptr) continue;

@@ -14,10 +14,11 @@
 
 namespace lore {
 
-/// Where the founders of a run came from that were not random.
+/// Where the founders of a run came from that were not random. Of several origins, paths and checksums are lists with
+/// ", " between.
 struct FoundersOrigin {
-    std::string kind;       ///< "last population of a run", "clones of a knowledge base"
-    std::string path;       ///< of the file: lineage.lore of that run, or a founders file
+    std::string kind;       ///< "last population of a run", "clones of a knowledge base", "several kinds"
+    std::string path;       ///< of the file: lineage.lore of that run, knowledge base, or founders file
     std::string checksum;   ///< XXH3-64 of that file, 16 hexadecimal digits
     friend bool operator==(FoundersOrigin const&, FoundersOrigin const&) = default;
 };

@@ -16,10 +16,11 @@ struct Treatment {
     std::string label;                    ///< in figures
     std::string config;                   ///< path of its lore-evolve configuration, as the campaign's file gives it
     std::vector<std::string> overrides;   ///< "section.key=value", those for its generations and its base among them
-    std::string knowledge;                ///< name of the knowledge base that shapes the reward; empty: none
-    std::string clone_of;                 ///< name of the knowledge base that founders are cloned from; empty: none
-    std::string policy_of;   ///< name of the knowledge base from whose source run's last population founders
-                             ///< come, the usual baseline of transfer; empty: none
+    std::vector<std::string> knowledge;   ///< name of the knowledge base that shapes the reward; at most one
+    std::vector<std::string>
+        clone_of;   ///< names of the knowledge bases that founders are cloned from, in equal shares
+    std::vector<std::string> policy_of;   ///< names of the knowledge bases from whose source runs' last populations
+                                          ///< founders come, in equal shares: the usual baseline of transfer
     int runs = 30;
     std::uint64_t first_seed = 1;
     std::string target;   ///< name of its target task, where the campaign's file names tasks; else empty

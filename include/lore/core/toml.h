@@ -31,6 +31,8 @@ public:
     std::optional<bool> boolean(std::string_view key) const;
     std::optional<std::string> string(std::string_view key) const;
     std::optional<std::vector<std::string>> strings(std::string_view key) const;
+    /// One string or an array of them; of an empty string, none.
+    std::optional<std::vector<std::string>> one_or_more(std::string_view key) const;
     std::optional<std::vector<double>> numbers(std::string_view key) const;
     std::optional<TomlTable> table(std::string_view key) const;
     std::vector<TomlTable> tables(std::string_view key) const;   ///< array of tables; empty if absent

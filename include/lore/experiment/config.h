@@ -13,14 +13,14 @@ namespace lore {
 
 /// One run, completely: a treatment is a value, not a build.
 struct ExperimentConfig {
-    std::string name = "source";         ///< of the treatment, for people
-    WorldRequest world;                  ///< [world]; of none: collectball, with the arena and the task below
-    std::string arena = "collectball";   ///< built-in arena's name, or a path, relative to the configuration file;
-                                         ///< in an override, to the working directory
-    std::string task = "source";         ///< one of the arena's tasks
-    int stop_when_still = 0;             ///< of collectball (CollectballWorld) [steps]
-    std::string founders_from;   ///< base, founders file or directory of a run; "": random founders. Relative paths
-                                 ///< start where those of `arena` do
+    std::string name = "source";              ///< of the treatment, for people
+    WorldRequest world;                       ///< [world]; of none: collectball, with the arena and the task below
+    std::string arena = "collectball";        ///< built-in arena's name, or a path, relative to the configuration file;
+                                              ///< in an override, to the working directory
+    std::string task = "source";              ///< one of the arena's tasks
+    int stop_when_still = 0;                  ///< of collectball (CollectballWorld) [steps]
+    std::vector<std::string> founders_from;   ///< bases, founders files or directories of runs; none: random founders.
+                                              ///< Relative paths start where those of `arena` do
     EpisodeConfig episode;
     EvolutionConfig evolution;
     KnowledgeConfig knowledge;          ///< what a --kb must fit

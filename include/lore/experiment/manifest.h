@@ -68,6 +68,8 @@ FileRecord record_of(std::string const& role, std::string const& path, std::stri
 FileRecord record_of_text(std::string const& role, std::string_view text, std::string const& shown_as);
 /// The first with that role, or null.
 FileRecord const* find_role(std::vector<FileRecord> const&, std::string_view role);
+/// All with this role, in their order.
+std::vector<FileRecord> with_role(std::vector<FileRecord> const&, std::string_view role);
 /// The first with that path, or null.
 FileRecord const* find_path(std::vector<FileRecord> const&, std::string_view path);
 /// Now, UTC, as "2025-01-31T12:00:00Z".

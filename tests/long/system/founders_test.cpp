@@ -3,9 +3,12 @@
 #include "system/evolve_command.h"
 
 #include <lore/archive/container.h>
+#include <lore/archive/founders_file.h>
 #include <lore/archive/knowledge_file.h>
+#include <lore/archive/lineage_file.h>
 #include <lore/collectball/collectball.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 using namespace lore;
@@ -61,6 +64,53 @@ TEST_F(Founders, of_a_knowledge_base_are_cloned_by_the_seed_of_the_run) {
               signature_of("d", {"--founders", by_hand, "--seed", "4", "--set", set}));
     EXPECT_EQ(signature_of("e", {"--founders", base, "--seed", "3", "--set", set}, 2),
               signature_of("b2", {"--founders", by_hand, "--seed", "3", "--set", set}));
+}
+
+TEST_F(Founders, of_several_origins_share_alike_on_any_ranks) {
+    std::string const other = scratch.file("other.lore"), run = scratch.file("b");
+    expect_done({program("lore-kb"), "clone", base, "--count", "10", "--seed", "2", "--out", other, "-q"});
+    std::string const plain = "founders.mutate=false";
+    std::string const expected = signature_of("a", {"--founders", clones, other, source, "--set", plain});
+    EXPECT_EQ(signature_of("b", {"--founders", clones, other, source, "--set", plain}, 2), expected);
+    EXPECT_EQ(results(scratch.file("a")), results(run));
+    EXPECT_NE(signature_of("c", {"--founders", other, clones, source, "--set", plain}), expected);
+    std::string const list = fmt::format("founders.from=['{}', '{}', '{}']", clones, other, source);
+    EXPECT_EQ(signature_of("d", {"--set", list, "--set", plain}), expected);
+
+    LineageArchive const lineage = read_lineage(run + "/lineage.lore");
+    EXPECT_EQ(lineage.founders->kind, "several kinds");
+    EXPECT_EQ(lineage.founders->path, clones + ", " + other + ", " + source + "/lineage.lore");
+    // Founder i is number i / 3 of origin i mod 3.
+    std::vector<std::vector<Genome>> origins{read_founders(clones).genomes, read_founders(other).genomes, {}};
+    LineageArchive const parents = read_lineage(source + "/lineage.lore");
+    for (IndividualId const id : parents.last_population) origins[2].push_back(parents.find(id)->genome);
+    int founders = 0;
+    for (auto const& birth : lineage.births)
+        if (std::uint32_t const slot = birth->id.slot; birth->id.generation == 0 && slot < 15) {
+            std::vector<Genome> const& origin = origins[slot % 3];
+            EXPECT_EQ(birth->genome, origin[slot / 3 % origin.size()]) << slot;
+            ++founders;
+        }
+    EXPECT_GT(founders, 0);
+}
+
+TEST_F(Founders, of_several_origins_are_those_that_a_resumed_run_was_started_with) {
+    std::string const other = scratch.file("other.lore"), run = scratch.file("run"), never = scratch.file("never");
+    expect_done({program("lore-kb"), "clone", base, "--count", "10", "--seed", "2", "--out", other, "-q"});
+    Command start{scratch, evolve(config, run, {"--founders", clones, other, "--max-time", "0"})};
+    EXPECT_EQ(start.wait(), 75) << start.err();
+    expect_refusal(evolve(config, run, {"--resume", "--founders", clones}), 2,
+                   "it was started with those of " + clones + ", " + other);
+    expect_refusal(evolve(config, run, {"--resume", "--founders", other, clones}), 2,
+                   "not the file it was started with");
+    EXPECT_EQ(signature_of("run", {"--resume", "--founders", clones, other}),
+              signature_of("whole", {"--founders", clones, other}));
+    expect_refusal({program("lore-evolve"), "--out", never, "--founders", clones, config}, 2,
+                   "stands behind --founders, which takes all that follows");
+    std::vector<std::string> many{"--founders"};
+    for (int i = 0; i < 100; ++i) many.push_back(clones);
+    expect_refusal(evolve(config, never, many), 2, "founders come from 100 origins");
+    EXPECT_FALSE(exists(never));
 }
 
 TEST_F(Founders, of_a_knowledge_base_are_cloned_again_where_a_run_is_killed_before_its_first_checkpoint) {

@@ -64,8 +64,8 @@ int failure_wanted(std::string const& treatment, std::string const& seed, std::s
 
 int main(int argc, char** argv) {
     std::vector<std::string> const arguments(argv + 1, argv + argc);
-    std::string config_path, seed = "1", out, kb, founders;
-    std::vector<std::string> overrides;
+    std::string config_path, seed = "1", out, kb;
+    std::vector<std::string> overrides, founders;
     bool archive_all = false;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         std::string const& word = arguments[i];
@@ -74,11 +74,17 @@ int main(int argc, char** argv) {
             config_path = word;
             continue;
         }
+        if (word == "--founders") {
+            for (; i + 1 < arguments.size() && !arguments[i + 1].starts_with("--"); ++i) {
+                std::string const& from = arguments[i + 1];
+                founders.push_back(fs::is_directory(from) ? from + "/" + run_file::lineage : from);
+            }
+            continue;
+        }
         std::string const& value = arguments[++i];
         if (word == "--seed") seed = value;
         if (word == "--out") out = value;
         if (word == "--kb") kb = value;
-        if (word == "--founders") founders = fs::is_directory(value) ? value + "/" + run_file::lineage : value;
         if (word == "--set") overrides.push_back(value);
         if (word == "--archive") archive_all = value == "all";
     }
@@ -115,7 +121,8 @@ int main(int argc, char** argv) {
         manifest.generations = config.evolution.generations;
         manifest.build = build_information();
         if (!kb.empty()) manifest.inputs.push_back(record_of_text(file_role::knowledge, "", kb));
-        if (!founders.empty()) manifest.inputs.push_back(record_of_text(file_role::founders, "", founders));
+        for (std::string const& from : founders)
+            manifest.inputs.push_back(record_of_text(file_role::founders, "", from));
 
         std::string const progress = out + "/" + run_file::progress;
         int generation = 0;

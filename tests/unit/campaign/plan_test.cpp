@@ -12,9 +12,12 @@
 #include <campaign/knowledge_kinds.h>
 #include <campaign/treatment_inputs.h>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 using namespace lore;
 
@@ -56,12 +59,12 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     CampaignPlan const small = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/small.toml");
     EXPECT_EQ(small.report_order, paper.report_order);
     CampaignPlan const still = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/still.toml");
-    EXPECT_EQ(still.targets.at(2).knowledge, "kb1_permuted");
+    EXPECT_EQ(still.targets.at(2).knowledge, std::vector<std::string>{"kb1_permuted"});
     EXPECT_EQ(steps_of(still).size(), 30u + 1 + 6 + 210 + 1);
     CampaignPlan const screening = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/screening.toml");
     EXPECT_EQ(screening.knowledge_base("base_return").value, (ValueConfig{ValueRule::discounted_return, 0.995}));
     EXPECT_EQ(screening.knowledge_base("base").gammas, std::vector<double>{}) << "lore-kb gathers 0.995 anyway";
-    EXPECT_EQ(screening.treatment("clone_credit").clone_of, "base_credit");
+    EXPECT_EQ(screening.treatment("clone_credit").clone_of, std::vector<std::string>{"base_credit"});
     CampaignPlan const ties = read_campaign(LORE_SOURCE_DIR "/jobs/campaigns/ties.toml");
     EXPECT_EQ(steps_of(ties).size(), 30u + 1 + 2 + 90 + 1);
     // These work in the directory of the paper's campaign: what they share has the same name and the same meaning.
@@ -238,6 +241,28 @@ std::string revalued(std::string const& name, std::string const& of, std::string
 }
 
 }   // namespace
+
+TEST_F(Campaign, takes_founders_from_several_bases_or_source_runs) {
+    std::string const treatment = "[[treatment]]\nname = \"none\"\n";
+    auto const founders_of = [&](std::string const& key) {
+        EXPECT_EQ(complaint(treatment, treatment + key + "\n"), "");
+        auto const steps = steps_named(steps_of(plan()), {"none"});
+        std::string const command =
+            shell_text(command_of(plan(), CampaignDirectory{"c"}, Launcher{}, steps.front(), nullptr));
+        return command.substr(command.find("--founders")) + " after " +
+               fmt::format("{}", fmt::join(steps.front().after, ", "));
+    };
+    EXPECT_EQ(founders_of("clone_of = [\"kb1\", \"kb2\"]"),
+              "--founders c/knowledge/kb1.lorekb c/knowledge/kb2.lorekb after knowledge/kb1, knowledge/kb2");
+    EXPECT_EQ(founders_of("policy_of = [\"kb2\", \"kb1\"]"),
+              "--founders 'c/runs/source/?' 'c/runs/source/?' after choose");
+    EXPECT_NE(complaint(treatment, treatment + "clone_of = [\"kb1\", \"kb1\"]\n").find("it names 'kb1' twice"),
+              std::string::npos);
+    EXPECT_NE(complaint(treatment, treatment + "knowledge = [\"kb1\", \"kb2\"]\n").find("one base shapes the reward"),
+              std::string::npos);
+    EXPECT_NE(complaint(treatment, treatment + "clone_of = [\"kb1\", \"kb9\"]\n").find("there is no 'kb9'"),
+              std::string::npos);
+}
 
 TEST_F(Campaign, has_bases_gather_what_those_revalued_from_them_need) {
     std::string const treatment = "[[treatment]]\nname = \"none\"\n";

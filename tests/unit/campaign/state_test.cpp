@@ -4,9 +4,10 @@
 
 #include <lore/archive/file_lock.h>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 using namespace lore;
+using ::testing::HasSubstr;
 
 class State : public test::CampaignTest {};
 
@@ -65,6 +66,22 @@ TEST_F(State, of_a_run_made_with_another_base_or_other_founders_is_failed_and_sa
     }
     std::filesystem::remove(directory().choice());
     expect("policy_of = \"kb1\"", "");
+}
+
+TEST_F(State, of_a_run_with_founders_from_other_bases_or_in_another_order_is_failed) {
+    std::string const given = "knowledge = \"kb1_all\"";
+    auto const reason_with = [&](std::string const& key) {
+        std::string text = test::small_campaign;
+        write("campaign.toml", text.replace(text.find(given), given.size(), key));
+        return state("all/001").reason;
+    };
+    reason_with("clone_of = [\"kb1\", \"kb2\"]");
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("all/001").status, StepStatus::done) << state("all/001").reason;
+    EXPECT_THAT(reason_with("clone_of = [\"kb2\", \"kb1\"]"), HasSubstr("kb1.lorekb, not with clone_of = kb2: move "));
+    EXPECT_THAT(reason_with("clone_of = \"kb1\""), HasSubstr("it was made not with clone_of = kb1: move "));
+    EXPECT_THAT(reason_with("clone_of = [\"kb1\", \"kb2\", \"kb1_all\"]"),
+                HasSubstr("it was made not with clone_of = kb1, kb2, kb1_all: move "));
 }
 
 TEST_F(State, of_a_run_with_another_seed_is_failed) {

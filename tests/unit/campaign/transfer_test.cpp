@@ -78,9 +78,9 @@ TEST_F(Transfer, makes_treatments_for_each_target_of_the_sources_that_fit) {
     EXPECT_EQ(none.label, "the arena: no knowledge");
     EXPECT_EQ(none.first_seed, 7u);
     EXPECT_EQ(none.runs, 2);
-    EXPECT_EQ(none.clone_of, "");
+    EXPECT_TRUE(none.clone_of.empty());
     Treatment const& helped = campaign.treatment("pole_from_pole");
-    EXPECT_EQ(helped.clone_of, "pole_best");
+    EXPECT_EQ(helped.clone_of, std::vector<std::string>{"pole_best"});
     EXPECT_EQ(helped.target, "pole");
     EXPECT_EQ(helped.overrides, (std::vector<std::string>{"evolution.generations=5", "evolution.ties=older"}));
     EXPECT_EQ(campaign.treatment("arena_from_arena").label, "the arena: from arena with a door");
@@ -134,11 +134,11 @@ TEST_F(Transfer, runs_like_any_campaign_and_takes_the_best_run_of_each_source) {
 TEST_F(Transfer, can_name_the_source_run_and_other_uses) {
     ASSERT_EQ(complaint("top = 10", "run = 2"), "");
     EXPECT_EQ(plan().knowledge_base("pole").run, 2);
-    EXPECT_EQ(plan().treatment("pole_from_pole").clone_of, "pole");
+    EXPECT_EQ(plan().treatment("pole_from_pole").clone_of, std::vector<std::string>{"pole"});
     ASSERT_EQ(complaint("method = \"clone\"\ntop = 10", "method = \"policy\""), "");
-    EXPECT_EQ(plan().treatment("pole_from_pole").policy_of, "pole");
+    EXPECT_EQ(plan().treatment("pole_from_pole").policy_of, std::vector<std::string>{"pole"});
     ASSERT_EQ(complaint("method = \"clone\"", "method = \"shaping\""), "");
-    EXPECT_EQ(plan().treatment("pole_from_pole").knowledge, "pole_best");
+    EXPECT_EQ(plan().treatment("pole_from_pole").knowledge, std::vector<std::string>{"pole_best"});
 }
 
 TEST_F(Transfer, stands_beside_treatments_written_by_hand) {

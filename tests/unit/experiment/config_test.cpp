@@ -119,12 +119,27 @@ TEST(Config, says_where_a_value_came_from_that_does_not_go_with_the_others) {
 }
 
 TEST(Config, looks_for_founders_beside_itself_and_where_an_override_is_typed) {
-    EXPECT_EQ(parse("").founders_from, "");
-    EXPECT_EQ(parse("[founders]\nfrom = \"runs/s1\"").founders_from, "jobs/runs/s1");
-    EXPECT_EQ(parse("[founders]\nfrom = \"/runs/s1\"").founders_from, "/runs/s1");
-    EXPECT_EQ(parse("", {"founders.from=f.lore"}).founders_from, "f.lore");
+    using Paths = std::vector<std::string>;
+    EXPECT_EQ(parse("").founders_from, Paths{});
+    EXPECT_EQ(parse("[founders]\nfrom = \"\"").founders_from, Paths{});
+    EXPECT_EQ(parse("[founders]\nfrom = \"runs/s1\"").founders_from, Paths{"jobs/runs/s1"});
+    EXPECT_EQ(parse("[founders]\nfrom = \"/runs/s1\"").founders_from, Paths{"/runs/s1"});
+    EXPECT_EQ(parse("[founders]\nfrom = [\"a\", \"/b\"]").founders_from, (Paths{"jobs/a", "/b"}));
+    EXPECT_EQ(parse("", {"founders.from=f.lore"}).founders_from, Paths{"f.lore"});
+    EXPECT_EQ(parse("", {"founders.from=a, b.lore"}).founders_from, Paths{"a, b.lore"});
+    EXPECT_EQ(parse("", {"founders.from=['a', 'b']"}).founders_from, (Paths{"a", "b"}));
     EXPECT_NE(complaint("[founders]\nshare = 1.5\n"), "");
     EXPECT_NE(complaint("[founders]\nmutate = 1\n"), "");
+}
+
+TEST(Config, writes_founders_from_one_place_as_a_path_and_from_several_as_a_list) {
+    ExperimentConfig config;
+    EXPECT_NE(to_toml(config).find("from = \"\" "), std::string::npos);
+    config.founders_from = {"/a"};
+    EXPECT_NE(to_toml(config).find("from = \"/a\" "), std::string::npos);
+    config.founders_from = {"/a", "/b"};
+    EXPECT_NE(to_toml(config).find("from = [\"/a\", \"/b\"] "), std::string::npos);
+    EXPECT_EQ(parse(to_toml(config)).founders_from, config.founders_from);
 }
 
 TEST(Config, looks_for_an_arena_file_beside_itself_and_leaves_names_alone) {

@@ -7,8 +7,9 @@ using ::testing::ElementsAre;
 
 namespace {
 
-Treatment treatment(std::string name, std::string knowledge = "", std::string clone_of = "",
-                    std::string policy_of = "") {
+using Names = std::vector<std::string>;
+
+Treatment treatment(std::string name, Names knowledge = {}, Names clone_of = {}, Names policy_of = {}) {
     Treatment made;
     made.name = made.label = std::move(name);
     made.config = "target.toml";
@@ -28,8 +29,8 @@ CampaignPlan plan_with_policy() {
     derived.kind = KnowledgeKind::revalued;
     derived.base = "kb1";
     plan.knowledge = {first, second, derived};
-    plan.targets = {treatment("none"), treatment("kb1", "kb1"), treatment("clone", "", "credit"),
-                    treatment("policy", "", "", "kb1"), treatment("kb2", "kb2")};
+    plan.targets = {treatment("none"), treatment("kb1", {"kb1"}), treatment("clone", {}, {"credit"}),
+                    treatment("policy", {}, {}, {"kb1"}), treatment("kb2", {"kb2"})};
     for (Treatment const& one : plan.targets) plan.report_order.push_back(one.name);
     return plan;
 }
@@ -102,6 +103,18 @@ TEST(Lead, is_shared_with_the_policy_of_the_same_source_run) {
     EXPECT_EQ(leads[1].share, -0.25);
     EXPECT_EQ(leads[2].treatment, "clone");
     EXPECT_EQ(leads[2].share, 0.75);
+}
+
+TEST(Lead, of_founders_from_several_bases_is_that_of_all_their_policies_together) {
+    CampaignPlan plan = plan_with_policy();
+    plan.targets = {treatment("none"), treatment("both", {}, {"credit", "kb2"}), treatment("one", {}, {}, {"kb1"}),
+                    treatment("policies", {}, {}, {"kb1", "kb2"})};
+    plan.report_order = {"none", "both", "one", "policies"};
+    auto const leads = leads_of(plan, {{"none", 10, 1}, {"both", 10, 2}, {"one", 10, 3}, {"policies", 10, 5}});
+    ASSERT_EQ(leads.size(), 1u);
+    EXPECT_EQ(leads[0].treatment, "both");
+    EXPECT_EQ(leads[0].policy, "policies");
+    EXPECT_EQ(leads[0].share, 0.25);
 }
 
 TEST(Lead, is_left_out_where_there_is_none) {
