@@ -61,7 +61,8 @@ void read_reward(TomlTable const& table, KnowledgePlan& plan) {
 }
 
 void read_run(TomlTable const& table, KnowledgePlan& plan) {
-    plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
+    bool const is_each = table.is_string("run") && table.required_string("run") == "each";
+    plan.run = is_each ? each_run : static_cast<int>(*table.integer("run", 1, most_runs));
     read_lineage(table, plan);
 }
 

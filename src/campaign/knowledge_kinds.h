@@ -37,6 +37,9 @@ std::span<KnowledgeKindRow const> knowledge_kinds();
 /// Lineage has four rows, which differ in how they are read.
 KnowledgeKindRow const& row_of(KnowledgeKind);
 
+/// KnowledgePlan::run of a table that stands for a base of each source run.
+inline constexpr int each_run = -1;
+
 /// One [[knowledge]] table. Other bases and the source that it names are not looked at. Throws UsageError.
 KnowledgePlan read_knowledge(TomlTable const&);
 

@@ -33,6 +33,7 @@ std::string source_of(TomlTable const& table, KnowledgePlan const& knowledge, Ca
 void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
     NameList const bases = names_of(plan.knowledge);
     require_new(table, knowledge.name, bases);
+    require_new(table, knowledge.name, names_of(plan.families));
     KnowledgeKindRow const& kind = row_of(knowledge.kind);
     if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
     for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
@@ -80,6 +81,34 @@ void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, Cam
     built.success_reward = value.success_reward;
 }
 
+bool is_family(KnowledgePlan const& knowledge, CampaignPlan const& plan) {
+    return knowledge.run == each_run ||
+           std::any_of(plan.families.begin(), plan.families.end(),
+                       [&](KnowledgeFamily const& family) { return family.name == knowledge.base; });
+}
+
+/// One base of each source run, or from each base of a family; each draws by a seed of its own.
+void add_family(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan& plan) {
+    require_new(table, knowledge.name, names_of(plan.knowledge));
+    require_new(table, knowledge.name, names_of(plan.families));
+    bool const is_first = knowledge.run == each_run;
+    NameList const bases = is_first ? NameList{} : plan.members(knowledge.base);
+    int const count =
+        is_first ? plan.treatment(source_of(table, knowledge, plan)).runs : static_cast<int>(bases.size());
+    KnowledgeFamily family{knowledge.name, {}};
+    for (int k = 1; k <= count; ++k) {
+        KnowledgePlan member = knowledge;
+        member.name = fmt::format("{}{}", knowledge.name, k);
+        member.label = fmt::format("{} {}", knowledge.label, k);
+        if (is_first) member.run = k;
+        else member.base = bases[static_cast<std::size_t>(k - 1)];
+        member.seed = knowledge.seed + static_cast<std::uint64_t>(k) - 1;
+        family.members.push_back(member.name);
+        add_knowledge(table, std::move(member), plan);
+    }
+    plan.families.push_back(std::move(family));
+}
+
 }   // namespace
 
 void add_knowledge(TomlTable const& table, KnowledgePlan knowledge, CampaignPlan& plan) {
@@ -94,7 +123,11 @@ void add_knowledge(TomlTable const& table, KnowledgePlan knowledge, CampaignPlan
 }
 
 void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
-    for (TomlTable const& table : document.tables("knowledge")) add_knowledge(table, read_knowledge(table), plan);
+    for (TomlTable const& table : document.tables("knowledge")) {
+        KnowledgePlan const knowledge = read_knowledge(table);
+        if (is_family(knowledge, plan)) add_family(table, knowledge, plan);
+        else add_knowledge(table, knowledge, plan);
+    }
     for (Treatment const& source : plan.sources) {
         auto const from_lineages =
             std::count_if(plan.knowledge.begin(), plan.knowledge.end(), [&](KnowledgePlan const& k) {

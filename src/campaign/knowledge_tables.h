@@ -10,7 +10,8 @@ namespace lore {
 /// there is not; evidence that no build gathers.
 void add_knowledge(TomlTable const&, KnowledgePlan, CampaignPlan&);
 
-/// All [[knowledge]] tables. Throws UsageError, also where a source task has fewer runs than bases.
+/// All [[knowledge]] tables, families as their members. Throws UsageError, also where a source task has fewer runs than
+/// bases.
 void read_knowledge_bases(TomlTable const& document, CampaignPlan&);
 
 }   // namespace lore

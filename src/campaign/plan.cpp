@@ -268,6 +268,12 @@ KnowledgePlan const& built_base(CampaignPlan const& plan, KnowledgePlan const& k
     return row_of(knowledge.kind).is_built ? knowledge : built_base(plan, plan.knowledge_base(knowledge.base));
 }
 
+std::vector<std::string> CampaignPlan::members(std::string_view name) const {
+    auto const family =
+        std::find_if(families.begin(), families.end(), [&](KnowledgeFamily const& f) { return f.name == name; });
+    return family == families.end() ? std::vector{std::string{name}} : family->members;
+}
+
 PoolPlan const* CampaignPlan::pool(std::string_view name) const {
     auto const found = std::find_if(pools.begin(), pools.end(), [&](PoolPlan const& p) { return p.name == name; });
     return found == pools.end() ? nullptr : &*found;

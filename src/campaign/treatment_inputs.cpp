@@ -163,6 +163,12 @@ void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& pl
     for (Treatment const& target : plan.targets) names.push_back(target.name);
     require_new(table, treatment.name, names);
     read_windows(table, plan.config_path(treatment), treatment.overrides);
+    for (TreatmentInput const& input : treatment_inputs()) {
+        NameList bases;
+        for (std::string const& name : treatment.*input.names)
+            for (std::string& member : plan.members(name)) bases.push_back(std::move(member));
+        treatment.*input.names = std::move(bases);
+    }
     for (TreatmentInput const& input : treatment_inputs())
         if (!(treatment.*input.names).empty()) input.fit(table, plan, treatment);
     plan.targets.push_back(std::move(treatment));

@@ -103,6 +103,11 @@ bool TomlTable::is_array(std::string_view key) const {
     return node != nullptr && node->is_array();
 }
 
+bool TomlTable::is_string(std::string_view key) const {
+    toml::node const* const node = node_->find(key);
+    return node != nullptr && node->is_string();
+}
+
 std::vector<std::string> TomlTable::keys() const {
     std::vector<std::pair<toml::source_position, std::string>> found;
     for (auto const& [key, value] : *node_->table) found.emplace_back(key.source().begin, std::string{key.str()});

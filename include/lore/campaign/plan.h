@@ -36,6 +36,13 @@ enum class KnowledgeKind : std::uint8_t {
     reduced         ///< a part of `base`
 };
 
+/// Bases that one table [[knowledge]] stands for: one of each run of a source (`run = "each"`), or one from each base
+/// of another family.
+struct KnowledgeFamily {
+    std::string name;
+    std::vector<std::string> members;   ///< NAME1, NAME2, ...: by source run
+};
+
 /// A knowledge base to be made.
 struct KnowledgePlan {
     std::string name;
@@ -98,9 +105,10 @@ struct CampaignPlan {
     std::string title;
     std::vector<Treatment> sources;         ///< the runs on each source task; one called "source" where there is one
     std::vector<KnowledgePlan> knowledge;   ///< each after those it is made from
-    std::vector<Treatment> tasks;           ///< target tasks by name, and what treatments of each have in common
-    std::vector<TransferPair> transfer;     ///< all source tasks by all target tasks, row by row; empty: no matrix
-    std::vector<Treatment> targets;         ///< in the order in which they are run
+    std::vector<KnowledgeFamily> families;
+    std::vector<Treatment> tasks;         ///< target tasks by name, and what treatments of each have in common
+    std::vector<TransferPair> transfer;   ///< all source tasks by all target tasks, row by row; empty: no matrix
+    std::vector<Treatment> targets;       ///< in the order in which they are run
     std::vector<PoolPlan> pools;
     std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
     std::vector<double> levels;   ///< of the reward, whose first reaching is timed; empty: as the report chooses
@@ -111,9 +119,11 @@ struct CampaignPlan {
     Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
     Treatment const& task(std::string_view name) const;                 ///< precondition: there is one
     KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
-    PoolPlan const* pool(std::string_view name) const;                  ///< null if there is none
-    std::string const& label(std::string_view name) const;              ///< of a treatment or a pool
-    std::string config_path(Treatment const&) const;                    ///< usable from the working directory
+    /// Those of the family of this name, or the name itself.
+    std::vector<std::string> members(std::string_view name) const;
+    PoolPlan const* pool(std::string_view name) const;       ///< null if there is none
+    std::string const& label(std::string_view name) const;   ///< of a treatment or a pool
+    std::string config_path(Treatment const&) const;         ///< usable from the working directory
 };
 
 /// The base by Algorithm 1 that a base is, or was derived from: its features and its evidence.

@@ -23,6 +23,7 @@ public:
 
     bool has(std::string_view key) const;
     bool is_array(std::string_view key) const;   ///< also one of tables
+    bool is_string(std::string_view key) const;
     /// Keys in the order of the document.
     std::vector<std::string> keys() const;
 

@@ -20,6 +20,7 @@
 #include <fmt/ranges.h>
 
 using namespace lore;
+using ::testing::HasSubstr;
 
 class Campaign : public test::CampaignTest {
 protected:
@@ -241,6 +242,37 @@ std::string revalued(std::string const& name, std::string const& of, std::string
 }
 
 }   // namespace
+
+TEST_F(Campaign, makes_a_base_of_each_source_run_and_others_from_each_of_these) {
+    std::string const treatment = "[[treatment]]\nname = \"none\"\n";
+    std::string const families = "[[knowledge]]\nname = \"base\"\nlabel = \"run\"\nrun = \"each\"\n"
+                                 "[[knowledge]]\nname = \"drawn\"\npermuted_of = \"base\"\nseed = 5\n"
+                                 "[[knowledge]]\nname = \"best\"\npart_of = \"drawn\"\ntop = 10\n";
+    std::string const text = "title = \"t\"\n[source]\nconfig = \"source.toml\"\nruns = 3\n" + families + treatment +
+                             "config = \"target.toml\"\nclone_of = \"best\"\n";
+    write("campaign.toml", text);
+    CampaignPlan const campaign = plan();
+    EXPECT_EQ(campaign.treatment("none").clone_of, (std::vector<std::string>{"best1", "best2", "best3"}));
+    EXPECT_EQ(campaign.members("base"), (std::vector<std::string>{"base1", "base2", "base3"}));
+    EXPECT_EQ(campaign.members("base2"), std::vector<std::string>{"base2"});
+    KnowledgePlan const& second = campaign.knowledge_base("base2");
+    EXPECT_EQ(second.run, 2);
+    EXPECT_EQ(second.label, "run 2");
+    EXPECT_EQ(campaign.knowledge_base("drawn3").base, "base3");
+    EXPECT_EQ(campaign.knowledge_base("drawn3").seed, 7u);
+    EXPECT_EQ(campaign.knowledge_base("best1").base, "drawn1");
+
+    auto const refused = [&](std::string const& old, std::string const& now) {
+        std::string changed = text;
+        changed.replace(changed.find(old), old.size(), now);
+        write("campaign.toml", changed);
+        return test::complaint_of<UsageError>([&] { plan(); });
+    };
+    EXPECT_THAT(refused("run = \"each\"", "run = \"all\""), HasSubstr("run"));
+    EXPECT_THAT(refused("name = \"drawn\"", "name = \"base\""), HasSubstr("'base' is defined twice"));
+    EXPECT_THAT(refused("name = \"drawn\"", "name = \"base2\""), HasSubstr("'base2' is defined twice"));
+    EXPECT_THAT(refused("clone_of", "knowledge"), HasSubstr("one base shapes the reward"));
+}
 
 TEST_F(Campaign, takes_founders_from_several_bases_or_source_runs) {
     std::string const treatment = "[[treatment]]\nname = \"none\"\n";
