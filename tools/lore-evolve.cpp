@@ -90,9 +90,9 @@ ExitCode work(Session const& session, CommandLine& line) {
                         "The run is saved; manifest.json in its directory has the signature.");
 }
 
-/// A path as it is, several as a list in TOML.
+/// A path as it is, several, or one that looks like a list, as a list in TOML.
 std::string setting_text(std::vector<std::string> paths) {
-    if (paths.size() == 1) return paths[0];
+    if (paths.size() == 1 && !paths[0].starts_with('[')) return paths[0];
     for (std::string& path : paths) path = toml_string(path);
     return fmt::format("[{}]", fmt::join(paths, ", "));
 }
@@ -127,10 +127,11 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
     if (line.bench) return std::nullopt;
-    if (line.run.config_path.empty() && founders.size() > 1 && founders.back().ends_with(".toml"))
-        throw UsageError("no configuration is given",
-                         fmt::format("{} stands behind --founders, which takes all that follows", founders.back()),
-                         "Name the configuration first.");
+    // --founders takes all that follows, and the configuration may be the last of it.
+    if (line.run.config_path.empty() && founders.size() > 1 && founders.back().ends_with(".toml")) {
+        line.run.config_path = std::move(founders.back());
+        founders.pop_back();
+    }
     if (!founders.empty()) line.run.overrides.push_back("founders.from=" + setting_text(std::move(founders)));
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.config_path.empty() && line.run.directory.empty())

@@ -16,7 +16,7 @@ std::shared_ptr<Birth const> LineageArchive::find(IndividualId id) const {
 
 namespace {
 
-constexpr std::size_t longest_text = 65536;
+constexpr std::size_t longest_text = std::size_t{1} << 20;   ///< paths of 200 origins of founders
 
 }   // namespace
 

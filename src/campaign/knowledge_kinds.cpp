@@ -61,8 +61,10 @@ void read_reward(TomlTable const& table, KnowledgePlan& plan) {
 }
 
 void read_run(TomlTable const& table, KnowledgePlan& plan) {
-    bool const is_each = table.is_string("run") && table.required_string("run") == "each";
-    plan.run = is_each ? each_run : static_cast<int>(*table.integer("run", 1, most_runs));
+    plan.run = each_run;
+    if (!table.is_string("run")) plan.run = static_cast<int>(*table.integer("run", 1, most_runs));
+    else if (table.required_string("run") != "each")
+        table.fail("run", "a number or \"each\" is expected", "Write run = 3, for example.");
     read_lineage(table, plan);
 }
 

@@ -92,9 +92,10 @@ void add_family(TomlTable const& table, KnowledgePlan const& knowledge, Campaign
     require_new(table, knowledge.name, names_of(plan.knowledge));
     require_new(table, knowledge.name, names_of(plan.families));
     bool const is_first = knowledge.run == each_run;
-    NameList const bases = is_first ? NameList{} : plan.members(knowledge.base);
+    NameList const bases = is_first ? NameList{} : plan.members(NameList{knowledge.base});
     int const count =
         is_first ? plan.treatment(source_of(table, knowledge, plan)).runs : static_cast<int>(bases.size());
+    if (count == 0) table.fail("run", "its source has no runs", "Raise their number.");
     KnowledgeFamily family{knowledge.name, {}};
     for (int k = 1; k <= count; ++k) {
         KnowledgePlan member = knowledge;
@@ -124,7 +125,8 @@ void add_knowledge(TomlTable const& table, KnowledgePlan knowledge, CampaignPlan
 
 void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
     for (TomlTable const& table : document.tables("knowledge")) {
-        KnowledgePlan const knowledge = read_knowledge(table);
+        KnowledgePlan knowledge = read_knowledge(table);
+        knowledge.consensus = plan.members(knowledge.consensus);
         if (is_family(knowledge, plan)) add_family(table, knowledge, plan);
         else add_knowledge(table, knowledge, plan);
     }
@@ -134,8 +136,11 @@ void read_knowledge_bases(TomlTable const& document, CampaignPlan& plan) {
                 return k.kind == KnowledgeKind::lineage && k.source == source.name;
             });
         if (from_lineages > source.runs)
-            document.fail("knowledge", fmt::format("{} knowledge bases need as many {} runs, and there are {}",
-                                                   from_lineages, source.name, source.runs));
+            document.fail("knowledge",
+                          fmt::format("{} knowledge bases need as many {} runs, and there are {}", from_lineages,
+                                      source.name, source.runs),
+                          "Raise the number of runs; where run = \"each\" takes them all, make other bases from its "
+                          "members with lineage_of.");
     }
 }
 

@@ -43,8 +43,11 @@ Treatment read_inputs(TomlTable const& table, Defaults const& defaults, std::str
     Treatment treatment;
     treatment.name = std::move(name);
     treatment.label = table.string("label").value_or(treatment.name);
-    for (TreatmentInput const& input : treatment_inputs())
+    for (TreatmentInput const& input : treatment_inputs()) {
         treatment.*input.names = table.one_or_more(input.key).value_or(NameList{});
+        if (table.is_array(input.key) && (treatment.*input.names).empty())
+            table.fail(input.key, "the list is empty", "Name one at least, or leave it out.");
+    }
     treatment.runs = static_cast<int>(table.integer("runs", 0, most_runs).value_or(defaults.runs));
     treatment.first_seed =
         static_cast<std::uint64_t>(table.integer("first_seed", 0, most_seed).value_or(defaults.first_seed));
@@ -268,10 +271,15 @@ KnowledgePlan const& built_base(CampaignPlan const& plan, KnowledgePlan const& k
     return row_of(knowledge.kind).is_built ? knowledge : built_base(plan, plan.knowledge_base(knowledge.base));
 }
 
-std::vector<std::string> CampaignPlan::members(std::string_view name) const {
-    auto const family =
-        std::find_if(families.begin(), families.end(), [&](KnowledgeFamily const& f) { return f.name == name; });
-    return family == families.end() ? std::vector{std::string{name}} : family->members;
+std::vector<std::string> CampaignPlan::members(std::vector<std::string> const& names) const {
+    std::vector<std::string> all;
+    for (std::string const& name : names) {
+        auto const family =
+            std::find_if(families.begin(), families.end(), [&](KnowledgeFamily const& f) { return f.name == name; });
+        if (family == families.end()) all.push_back(name);
+        else all.insert(all.end(), family->members.begin(), family->members.end());
+    }
+    return all;
 }
 
 PoolPlan const* CampaignPlan::pool(std::string_view name) const {

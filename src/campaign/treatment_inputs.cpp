@@ -47,7 +47,8 @@ void fit_windows(TomlTable const& table, std::string const& config_path, Treatme
 
 void fit_knowledge(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
     if (treatment.knowledge.size() > 1)
-        table.fail("knowledge", "one base shapes the reward, and it names several", "Name one.");
+        table.fail("knowledge", fmt::format("one base shapes the reward, and it names {}", treatment.knowledge.size()),
+                   "Name one.");
     require_known(table, "knowledge", treatment.knowledge[0], names_of(plan.knowledge));
     fit_windows(table, plan.config_path(treatment), treatment,
                 windows_of(plan, plan.knowledge_base(treatment.knowledge[0])));
@@ -92,10 +93,11 @@ std::vector<std::string> clone_arguments(Treatment const& treatment, CommandCont
 }
 
 void fit_policy(TomlTable const& table, CampaignPlan const& plan, Treatment& treatment) {
-    std::vector<KnowledgePlan> lineages;
-    for (KnowledgePlan const& one : plan.knowledge)
-        if (one.kind == KnowledgeKind::lineage) lineages.push_back(one);
-    require_each(table, "policy_of", treatment.policy_of, names_of(lineages));
+    require_each(table, "policy_of", treatment.policy_of, names_of(plan.knowledge));
+    for (std::string const& name : treatment.policy_of)
+        if (plan.knowledge_base(name).kind != KnowledgeKind::lineage)
+            table.fail("policy_of", fmt::format("'{}' is made from another base", name),
+                       "Name bases with 'balls', 'reward', 'run' or 'best_of': of source runs.");
     if (!treatment.clone_of.empty())
         table.fail("policy_of", "founders come from one place, and there is clone_of", "Leave one of the two out.");
 }
@@ -163,11 +165,11 @@ void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& pl
     for (Treatment const& target : plan.targets) names.push_back(target.name);
     require_new(table, treatment.name, names);
     read_windows(table, plan.config_path(treatment), treatment.overrides);
+    NameList known = names_of(plan.knowledge), families = names_of(plan.families);
+    known.insert(known.end(), families.begin(), families.end());
     for (TreatmentInput const& input : treatment_inputs()) {
-        NameList bases;
-        for (std::string const& name : treatment.*input.names)
-            for (std::string& member : plan.members(name)) bases.push_back(std::move(member));
-        treatment.*input.names = std::move(bases);
+        for (std::string const& name : treatment.*input.names) require_known(table, input.key, name, known);
+        treatment.*input.names = plan.members(treatment.*input.names);
     }
     for (TreatmentInput const& input : treatment_inputs())
         if (!(treatment.*input.names).empty()) input.fit(table, plan, treatment);

@@ -19,7 +19,7 @@ namespace lore {
 struct TreatmentInput {
     std::string_view key;
     std::string_view method;                      ///< what [transfer] calls it
-    std::vector<std::string> Treatment::*names;   ///< what the key says; none: the treatment does without
+    std::vector<std::string> Treatment::*names;   ///< of the bases that the key names; none: it does without
     /// Throws UsageError if the campaign, as read so far, has nothing of that name or nothing that fits; may add
     /// overrides to the treatment.
     void (*fit)(TomlTable const&, CampaignPlan const&, Treatment&);
@@ -38,8 +38,8 @@ std::span<TreatmentInput const> treatment_inputs();
 std::string other_inputs(Treatment const&, CommandContext const&, std::vector<std::string> const& founders_from,
                          Manifest const&);
 
-/// Adds a target treatment to the campaign as read so far. Throws UsageError, which names the table: a name that is
-/// taken, or an input that does not fit.
+/// Adds a target treatment to the campaign as read so far, the members of a family in the place of its name. Throws
+/// UsageError, which names the table: a name that is taken, or an input that does not fit.
 void add_treatment(TomlTable const&, Treatment, CampaignPlan&);
 
 /// Knowledge settings of a treatment's configuration with these overrides. Throws UsageError, which names the

@@ -163,8 +163,12 @@ void sign(Signature& signature, Population const& population) {
 
 }   // namespace
 
+int inherited_founders(EvolutionConfig const& config) {
+    return static_cast<int>(config.founding.share * config.founders + 0.5);
+}
+
 std::vector<Genome> founder_genomes(EvolutionConfig const& config, std::uint64_t seed, std::span<Genome const> origin) {
-    int const inherited = origin.empty() ? 0 : static_cast<int>(config.founding.share * config.founders + 0.5);
+    int const inherited = origin.empty() ? 0 : inherited_founders(config);
     std::vector<Genome> genomes;
     for (int slot = 0; slot < config.founders; ++slot) {
         if (slot >= inherited) {

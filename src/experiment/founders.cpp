@@ -6,13 +6,17 @@
 #include <lore/experiment/run_directory.h>
 #include <lore/knowledge/clone.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace lore {
 
 namespace {
+
+constexpr std::size_t most_origins = 200;   ///< their paths have room in lineage.lore
 
 struct Origin {
     std::vector<Genome> genomes;
@@ -23,11 +27,17 @@ Origin last_population(std::string const& directory) {
     LineageArchive const lineage = read_lineage((std::filesystem::path{directory} / run_file::lineage).string());
     Origin origin{{}, lineage.world.channels};
     for (IndividualId const id : lineage.last_population) origin.genomes.push_back(lineage.find(id)->genome);
+    if (origin.genomes.empty())
+        throw UsageError(fmt::format("no founders in {}", directory), "its last population is empty",
+                         "Take another run.");
     return origin;
 }
 
 Origin clones_of(std::string const& path, int count, std::uint64_t seed) {
     KnowledgeBase const base = read_knowledge_base(path);
+    if (base.size() == 0)
+        throw UsageError(fmt::format("no founders in {}", path), "the knowledge base has no features",
+                         "Build another.");
     return {clone(base, {.count = count, .seed = seed}).genomes, base.config().channels};
 }
 
@@ -89,29 +99,34 @@ std::string founders_path(std::string const& from) {
 }
 
 std::vector<FileRecord> founders_records(std::vector<std::string> const& from) {
+    if (from.size() > most_origins)
+        throw UsageError(fmt::format("founders come from {} origins", from.size()),
+                         fmt::format("a run takes them from {} at most", most_origins), "Name fewer.");
     std::vector<FileRecord> records;
-    for (std::string const& one : from) records.push_back(founders_record(one));
+    for (std::string const& one : from) {
+        records.push_back(founders_record(one));
+        if (std::count(from.begin(), from.end(), one) > 1)
+            throw UsageError("founders cannot be taken", fmt::format("{} is named twice", one), "Name each once.");
+    }
     return records;
 }
 
 std::vector<Genome> read_founder_genomes(std::vector<std::string> const& from, Channels const& channels,
-                                         NetworkLimits const& limits, int count, std::uint64_t seed) {
-    int const origins = static_cast<int>(from.size());
-    if (origins > count)
-        throw UsageError(fmt::format("founders come from {} origins", origins),
-                         fmt::format("a population of {} has no share for each", count),
-                         "Name fewer, or set evolution.population higher.");
+                                         EvolutionConfig const& config, std::uint64_t seed) {
+    int const origins = static_cast<int>(from.size()), inherited = inherited_founders(config);
+    if (origins > 1 && origins > inherited)
+        throw UsageError("founders cannot be taken", fmt::format("{} origins share {} founders", origins, inherited),
+                         "Name fewer, or set founders.share or evolution.founders higher.");
+    int const each = (config.population + origins - 1) / origins;
     std::vector<Origin> parts;
     for (std::string const& one : from) {
-        parts.push_back(origin_of(one, (count + origins - 1) / origins, seed));
-        check_fit(one, parts.back(), channels, limits);
+        parts.push_back(origin_of(one, each, seed));
+        check_fit(one, parts.back(), channels, config.limits);
     }
     if (origins == 1) return std::move(parts[0].genomes);
     std::vector<Genome> genomes;
-    for (std::size_t i = 0; std::cmp_less(i, count); ++i) {
-        std::vector<Genome> const& part = parts[i % parts.size()].genomes;
-        genomes.push_back(part[i / parts.size() % part.size()]);
-    }
+    for (std::size_t i = 0; std::cmp_less(i, each); ++i)
+        for (Origin const& part : parts) genomes.push_back(part.genomes[i % part.genomes.size()]);
     return genomes;
 }
 

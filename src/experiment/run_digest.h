@@ -8,7 +8,7 @@
 namespace lore {
 
 /// All that the results of a run depend on, in one number: the settings that affect results (result_settings), the
-/// arena, the knowledge base, the seed and, where founders are not random, the checksum of their file. A checkpoint
+/// arena, the knowledge base, the seed and, where founders are not random, the checksums of their files. A checkpoint
 /// keeps it, and is only continued where it is the same.
 std::uint64_t digest_of(WorkOrder const&, std::uint64_t seed, std::string_view founders_checksum = "");
 

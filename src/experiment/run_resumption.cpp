@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace lore {
@@ -89,17 +90,19 @@ void find_founders(RunSetup& setup) {
                                ? std::string{"it was started with random ones"}
                                : fmt::format("it was started with those of {}", setup.founders_origin()->path),
                            "Set founders.from as it was, or start in another directory.");
-    auto const is_at = [](std::string const& one, FileRecord const& record) {
-        return founders_path(one) == record.path;
+    auto const is_at = [](std::string const& one, FileRecord const& record) {   // a run's directory may be gone
+        return one == record.path || (fs::path{one} / run_file::lineage).string() == record.path;
     };
     bool const all_are_there = std::equal(from.begin(), from.end(), recorded.begin(), recorded.end(), is_at);
     if (from.empty() || (setup.checkpoint && all_are_there)) return;
     std::vector<FileRecord> now = founders_records(from);
-    for (std::size_t i = 0; i < recorded.size(); ++i)
+    for (std::size_t i = 0; i < std::min(recorded.size(), now.size()); ++i)
         if (recorded[i].checksum != now[i].checksum)
-            throw cannot_go_on(setup, " with other founders",
-                               fmt::format("{} is not the file it was started with", now[i].path),
-                               "Give that one with --founders, or start in another directory.");
+            throw cannot_go_on(
+                setup, " with other founders", fmt::format("{} is not the file it was started with", now[i].path),
+                recorded.size() == 1 ? std::string{"Give that one with --founders, or start in another directory."}
+                                     : fmt::format("Give those with --founders in the order of the start: {}.",
+                                                   setup.founders_origin()->path));
     if (recorded.empty()) setup.manifest.inputs.insert(setup.manifest.inputs.end(), now.begin(), now.end());
     if (!setup.checkpoint) setup.founders_are_due = true;
 }

@@ -90,8 +90,7 @@ void settle(PreparedRun& run, RunOptions const& options) {
     RunWorld world = settle_world(setup);
     if (setup.founders_are_due)
         setup.founders = read_founder_genomes(setup.order.config.founders_from, setup.manifest.world.channels,
-                                              setup.order.config.evolution.limits,
-                                              setup.order.config.evolution.population, setup.seed);
+                                              setup.order.config.evolution, setup.seed);
     if (setup.order.config.evolution.use_shaping && setup.order.knowledge_path.empty())
         throw UsageError("evolution.use_shaping is true", "no knowledge base is given", "Give one with --kb.");
     check_digest(setup);

@@ -32,10 +32,12 @@ std::vector<std::string> const& bases_of(Treatment const& treatment) {
     return treatment.knowledge.empty() ? treatment.clone_of : treatment.knowledge;
 }
 
-/// The bases by Algorithm 1 that these were derived from: those of the source runs.
+/// The bases by Algorithm 1 that these were derived from, those of the source runs: each once, sorted.
 std::vector<std::string> origins_of(CampaignPlan const& plan, std::vector<std::string> const& bases) {
     std::vector<std::string> origins;
     for (std::string const& name : bases) origins.push_back(origin_of(plan, plan.knowledge_base(name)).name);
+    std::sort(origins.begin(), origins.end());
+    origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
     return origins;
 }
 
@@ -106,8 +108,8 @@ std::vector<LeadRow> leads_of(CampaignPlan const& plan, std::vector<Milestone> c
         if (bases_of(treatment).empty()) continue;
         std::vector<std::string> const origins = origins_of(plan, bases_of(treatment));
         Treatment const* const policy = find_target(plan, [&](Treatment const& t) {
-            return t.policy_of == origins && t.knowledge.empty() && t.name != name && t.config == treatment.config &&
-                   t.target == treatment.target;
+            return origins_of(plan, t.policy_of) == origins && t.knowledge.empty() && t.name != name &&
+                   t.config == treatment.config && t.target == treatment.target;
         });
         if (policy == nullptr) continue;
         Treatment const* const none = find_target(plan, [&](Treatment const& t) {

@@ -53,14 +53,14 @@ struct Milestone {
 /// How much of a policy's lead over no transfer another treatment has at one generation: a row of leads.csv.
 struct LeadRow {
     std::string treatment;
-    std::string policy;   ///< the treatment whose founders come from the source run of the same base
+    std::string policy;   ///< the treatment whose founders come from the source runs of the same bases
     std::string none;     ///< the treatment that takes nothing from the source
     int generation = 0;
     double reward = 0, policy_reward = 0, none_reward = 0;   ///< means over the runs
     double share = 0;                                        ///< (reward - none_reward) / (policy_reward - none_reward)
 };
 
-/// Every target treatment that takes a base beside the policy treatment of the same source run, at the generations of
+/// Every target treatment that takes bases beside the policy treatment of the same source runs, at the generations of
 /// the milestones, in the report's order. Left out are generations at which the policy does not lead. No transfer is
 /// the first treatment in that order that takes nothing, with the policy's configuration.
 std::vector<LeadRow> leads_of(CampaignPlan const&, std::vector<Milestone> const&);

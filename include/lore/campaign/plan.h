@@ -103,12 +103,12 @@ struct CampaignPlan {
     std::string path;        ///< of its file
     std::string directory;   ///< in which the file lies; relative paths start there
     std::string title;
-    std::vector<Treatment> sources;         ///< the runs on each source task; one called "source" where there is one
-    std::vector<KnowledgePlan> knowledge;   ///< each after those it is made from
-    std::vector<KnowledgeFamily> families;
-    std::vector<Treatment> tasks;         ///< target tasks by name, and what treatments of each have in common
-    std::vector<TransferPair> transfer;   ///< all source tasks by all target tasks, row by row; empty: no matrix
-    std::vector<Treatment> targets;       ///< in the order in which they are run
+    std::vector<Treatment> sources;          ///< the runs on each source task; one called "source" where there is one
+    std::vector<KnowledgePlan> knowledge;    ///< each after those it is made from
+    std::vector<KnowledgeFamily> families;   ///< of these; names that treatments take are those of members
+    std::vector<Treatment> tasks;            ///< target tasks by name, and what treatments of each have in common
+    std::vector<TransferPair> transfer;      ///< all source tasks by all target tasks, row by row; empty: no matrix
+    std::vector<Treatment> targets;          ///< in the order in which they are run
     std::vector<PoolPlan> pools;
     std::vector<std::string> report_order;   ///< names of the targets, in the order of tables and figures
     std::vector<double> levels;   ///< of the reward, whose first reaching is timed; empty: as the report chooses
@@ -119,8 +119,8 @@ struct CampaignPlan {
     Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
     Treatment const& task(std::string_view name) const;                 ///< precondition: there is one
     KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
-    /// Those of the family of this name, or the name itself.
-    std::vector<std::string> members(std::string_view name) const;
+    /// The same names with the members of a family in the place of its own.
+    std::vector<std::string> members(std::vector<std::string> const& names) const;
     PoolPlan const* pool(std::string_view name) const;       ///< null if there is none
     std::string const& label(std::string_view name) const;   ///< of a treatment or a pool
     std::string config_path(Treatment const&) const;         ///< usable from the working directory

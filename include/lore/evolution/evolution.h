@@ -73,6 +73,8 @@ EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, Di
 EvolutionState evolve(EvolutionConfig const&, std::uint64_t seed, Evaluator&, EvolutionState state,
                       GenerationObserver const&, std::span<Genome const> origin = {});
 
+/// How many founders come from elsewhere, if any do; the others are random.
+int inherited_founders(EvolutionConfig const&);
 /// Genomes of generation 0. Slot i of those that come from `origin` takes its genome i mod n, mutated once by the
 /// stream (seed, founder_mutation, 0, i); the others are random: founder(), from the stream (seed, founder, 0, i).
 std::vector<Genome> founder_genomes(EvolutionConfig const&, std::uint64_t seed, std::span<Genome const> origin);

@@ -253,8 +253,7 @@ TEST_F(Campaign, makes_a_base_of_each_source_run_and_others_from_each_of_these) 
     write("campaign.toml", text);
     CampaignPlan const campaign = plan();
     EXPECT_EQ(campaign.treatment("none").clone_of, (std::vector<std::string>{"best1", "best2", "best3"}));
-    EXPECT_EQ(campaign.members("base"), (std::vector<std::string>{"base1", "base2", "base3"}));
-    EXPECT_EQ(campaign.members("base2"), std::vector<std::string>{"base2"});
+    EXPECT_EQ(campaign.members({"base", "best2"}), (std::vector<std::string>{"base1", "base2", "base3", "best2"}));
     KnowledgePlan const& second = campaign.knowledge_base("base2");
     EXPECT_EQ(second.run, 2);
     EXPECT_EQ(second.label, "run 2");
@@ -268,7 +267,15 @@ TEST_F(Campaign, makes_a_base_of_each_source_run_and_others_from_each_of_these) 
         write("campaign.toml", changed);
         return test::complaint_of<UsageError>([&] { plan(); });
     };
-    EXPECT_THAT(refused("run = \"each\"", "run = \"all\""), HasSubstr("run"));
+    EXPECT_THAT(refused("run = \"each\"", "run = \"all\""), HasSubstr("a number or \"each\" is expected"));
+    EXPECT_THAT(refused("runs = 3", "runs = 0"), HasSubstr("its source has no runs"));
+    EXPECT_THAT(refused("clone_of = \"best\"", "clone_of = []"), HasSubstr("the list is empty"));
+    EXPECT_THAT(refused("clone_of = \"best", "clone_of = \"besd"), HasSubstr("Did you mean 'best'?"));
+    EXPECT_THAT(refused("clone_of", "policy_of"), HasSubstr("'best1' is made from another base"));
+    EXPECT_EQ(refused("top = 10", "consensus = [\"base\"]"), "");
+    EXPECT_EQ(plan().knowledge_base("best1").consensus.size(), 3u);
+    EXPECT_THAT(refused("top = 10\n", "top = 10\n[[knowledge]]\nname = \"more\"\nrun = 1\n"),
+                HasSubstr("make other bases from its members with lineage_of"));
     EXPECT_THAT(refused("name = \"drawn\"", "name = \"base\""), HasSubstr("'base' is defined twice"));
     EXPECT_THAT(refused("name = \"drawn\"", "name = \"base2\""), HasSubstr("'base2' is defined twice"));
     EXPECT_THAT(refused("clone_of", "knowledge"), HasSubstr("one base shapes the reward"));

@@ -107,7 +107,7 @@ TEST(Lead, is_shared_with_the_policy_of_the_same_source_run) {
 
 TEST(Lead, of_founders_from_several_bases_is_that_of_all_their_policies_together) {
     CampaignPlan plan = plan_with_policy();
-    plan.targets = {treatment("none"), treatment("both", {}, {"credit", "kb2"}), treatment("one", {}, {}, {"kb1"}),
+    plan.targets = {treatment("none"), treatment("both", {}, {"kb2", "credit"}), treatment("one", {}, {}, {"kb1"}),
                     treatment("policies", {}, {}, {"kb1", "kb2"})};
     plan.report_order = {"none", "both", "one", "policies"};
     auto const leads = leads_of(plan, {{"none", 10, 1}, {"both", 10, 2}, {"one", 10, 3}, {"policies", 10, 5}});
