@@ -34,6 +34,7 @@ constexpr char examples[] = R"(Examples:
   mpirun -n 2 lore-evolve jobs/tasks/source.toml --seed 7 --out runs/source/007 --resume
   lore-kb reduce kb1.lorekb --top 1000 --out best.lorekb
   mpirun -n 2 lore-evolve jobs/tasks/target.toml --founders best.lorekb --out runs/t1 --set evolution.generations=500
+  mpirun -n 2 lore-evolve jobs/tasks/target.toml --founders best?.lorekb --out runs/t2
   lore-evolve --bench
 
 Exit codes: 0 done, 75 stopped at a checkpoint (run it again with --resume), 2 command line, configuration or
@@ -116,7 +117,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     std::vector<std::string> founders;
     app.add_option("--founders", founders,
                    "knowledge bases to clone founders from, founders files, or runs whose last populations they come "
-                   "from; several share alike: --set founders.from=FILE")
+                   "from; several, all that follow, share alike: --set founders.from=FILE")
         ->type_name("FILE|DIR");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
     app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
