@@ -92,10 +92,8 @@ ExitCode work(Session const& session, CommandLine& line) {
 }
 
 /// A path as it is, several, or one that looks like a list, as a list in TOML.
-std::string setting_text(std::vector<std::string> paths) {
-    if (paths.size() == 1 && !paths[0].starts_with('[')) return paths[0];
-    for (std::string& path : paths) path = toml_string(path);
-    return fmt::format("[{}]", fmt::join(paths, ", "));
+std::string setting_text(std::vector<std::string> const& paths) {
+    return paths.size() == 1 && !paths[0].starts_with('[') ? paths[0] : toml_strings(paths);
 }
 
 /// Reads the command line; an exit code where there is nothing else to do (--help, or a mistake).
@@ -133,7 +131,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
         line.run.config_path = std::move(founders.back());
         founders.pop_back();
     }
-    if (!founders.empty()) line.run.overrides.push_back("founders.from=" + setting_text(std::move(founders)));
+    if (!founders.empty()) line.run.overrides.push_back("founders.from=" + setting_text(founders));
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.config_path.empty() && line.run.directory.empty())
         throw UsageError("nothing to do", "neither a configuration nor --out DIR is given",

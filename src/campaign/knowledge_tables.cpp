@@ -32,8 +32,7 @@ std::string source_of(TomlTable const& table, KnowledgePlan const& knowledge, Ca
 
 void check_knowledge(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan const& plan) {
     NameList const bases = names_of(plan.knowledge);
-    require_new(table, knowledge.name, bases);
-    require_new(table, knowledge.name, names_of(plan.families));
+    require_new(table, knowledge.name, plan.base_names());
     KnowledgeKindRow const& kind = row_of(knowledge.kind);
     if (!knowledge.base.empty()) require_known(table, kind.key, knowledge.base, bases);
     for (std::string const& other : knowledge.consensus) require_known(table, "consensus", other, bases);
@@ -89,8 +88,7 @@ bool is_family(KnowledgePlan const& knowledge, CampaignPlan const& plan) {
 
 /// One base of each source run, or from each base of a family; each draws by a seed of its own.
 void add_family(TomlTable const& table, KnowledgePlan const& knowledge, CampaignPlan& plan) {
-    require_new(table, knowledge.name, names_of(plan.knowledge));
-    require_new(table, knowledge.name, names_of(plan.families));
+    require_new(table, knowledge.name, plan.base_names());
     bool const is_first = knowledge.run == each_run;
     NameList const bases = is_first ? NameList{} : plan.members(NameList{knowledge.base});
     int const count =

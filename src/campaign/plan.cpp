@@ -271,6 +271,12 @@ KnowledgePlan const& built_base(CampaignPlan const& plan, KnowledgePlan const& k
     return row_of(knowledge.kind).is_built ? knowledge : built_base(plan, plan.knowledge_base(knowledge.base));
 }
 
+std::vector<std::string> CampaignPlan::base_names() const {
+    std::vector<std::string> names = names_of(knowledge), of_families = names_of(families);
+    names.insert(names.end(), of_families.begin(), of_families.end());
+    return names;
+}
+
 std::vector<std::string> CampaignPlan::members(std::vector<std::string> const& names) const {
     std::vector<std::string> all;
     for (std::string const& name : names) {

@@ -165,8 +165,7 @@ void add_treatment(TomlTable const& table, Treatment treatment, CampaignPlan& pl
     for (Treatment const& target : plan.targets) names.push_back(target.name);
     require_new(table, treatment.name, names);
     read_windows(table, plan.config_path(treatment), treatment.overrides);
-    NameList known = names_of(plan.knowledge), families = names_of(plan.families);
-    known.insert(known.end(), families.begin(), families.end());
+    NameList const known = plan.base_names();
     for (TreatmentInput const& input : treatment_inputs()) {
         for (std::string const& name : treatment.*input.names) require_known(table, input.key, name, known);
         treatment.*input.names = plan.members(treatment.*input.names);

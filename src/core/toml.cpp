@@ -57,6 +57,12 @@ std::string toml_string(std::string_view text) {
     return all + '"';
 }
 
+std::string toml_strings(std::vector<std::string> const& texts) {
+    std::string list;
+    for (std::string const& text : texts) list += (list.empty() ? "" : ", ") + toml_string(text);
+    return "[" + list + "]";
+}
+
 /// One table of a document. `document` keeps the parsed whole alive.
 struct TomlTable::Node {
     std::shared_ptr<toml::table const> document;

@@ -90,8 +90,8 @@ public:
             },
             [&values] {
                 std::vector<std::string> words;
-                for (Choice value : values) words.push_back(toml_string(name(value)));
-                return fmt::format("[{}]", fmt::join(words, ", "));
+                for (Choice value : values) words.emplace_back(name(value));
+                return toml_strings(words);
             });
     }
 
@@ -102,7 +102,7 @@ public:
             [=, &words](TomlTable const& table) {
                 if (auto read = table.strings(key)) words = *std::move(read);
             },
-            [&words] { return list_of(words); });
+            [&words] { return toml_strings(words); });
     }
     /// A path or a list of them, and written so.
     void add_paths(std::string key, std::vector<std::string>& paths, std::string_view doc,
@@ -112,7 +112,7 @@ public:
             [=, &paths](TomlTable const& table) {
                 if (auto read = table.one_or_more(key)) paths = *std::move(read);
             },
-            [&paths] { return paths.size() > 1 ? list_of(paths) : toml_string(paths.empty() ? "" : paths[0]); });
+            [&paths] { return paths.size() > 1 ? toml_strings(paths) : toml_string(paths.empty() ? "" : paths[0]); });
     }
     /// A table of any keys, kept as lines (TomlTable::lines). One that is read later adds to it, and wins.
     void add_settings(std::string key, std::string& lines, std::string_view doc, Affects affects = Affects::results) {
@@ -125,11 +125,6 @@ public:
     }
 
 private:
-    static std::string list_of(std::vector<std::string> const& words) {
-        std::vector<std::string> all;
-        for (std::string const& word : words) all.push_back(toml_string(word));
-        return fmt::format("[{}]", fmt::join(all, ", "));
-    }
     static std::vector<std::string> split(std::string_view lines) {
         std::vector<std::string> all;
         for (std::size_t end = 0; (end = lines.find('\n')) != std::string_view::npos; lines.remove_prefix(end + 1))

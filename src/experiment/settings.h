@@ -15,12 +15,8 @@ namespace lore {
 /// A default never changes: checkpoints are guarded by the settings that are not at their default (run_digest.h). What
 /// shall be different from now on is a new setting, or a value in jobs/.
 struct Setting {
-    enum class Kind : std::uint8_t {
-        value,
-        text,
-        list,
-        paths
-    };   ///< all but value may come unquoted from a command line
+    /// All but `value` may come unquoted from a command line.
+    enum class Kind : std::uint8_t { value, text, list, paths };
 
     std::string section;   ///< "" for the keys of the run itself
     std::string key;

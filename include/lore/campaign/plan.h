@@ -17,8 +17,7 @@ struct Treatment {
     std::string config;                   ///< path of its lore-evolve configuration, as the campaign's file gives it
     std::vector<std::string> overrides;   ///< "section.key=value", those for its generations and its base among them
     std::vector<std::string> knowledge;   ///< name of the knowledge base that shapes the reward; at most one
-    std::vector<std::string>
-        clone_of;   ///< names of the knowledge bases that founders are cloned from, in equal shares
+    std::vector<std::string> clone_of;    ///< names of the bases that founders are cloned from, in equal shares
     std::vector<std::string> policy_of;   ///< names of the knowledge bases from whose source runs' last populations
                                           ///< founders come, in equal shares: the usual baseline of transfer
     int runs = 30;
@@ -119,6 +118,8 @@ struct CampaignPlan {
     Treatment const& treatment(std::string_view name) const;            ///< precondition: there is one
     Treatment const& task(std::string_view name) const;                 ///< precondition: there is one
     KnowledgePlan const& knowledge_base(std::string_view name) const;   ///< precondition: there is one
+    /// Of all bases and families: no two are the same.
+    std::vector<std::string> base_names() const;
     /// The same names with the members of a family in the place of its own.
     std::vector<std::string> members(std::vector<std::string> const& names) const;
     PoolPlan const* pool(std::string_view name) const;       ///< null if there is none

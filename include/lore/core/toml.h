@@ -63,5 +63,7 @@ private:
 
 /// A text as TOML writes it, in quotes, without control characters: it stays on its line.
 std::string toml_string(std::string_view text);
+/// An array of such strings, in one line.
+std::string toml_strings(std::vector<std::string> const&);
 
 }   // namespace lore

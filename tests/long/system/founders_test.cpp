@@ -110,6 +110,9 @@ TEST_F(Founders, of_several_origins_are_those_that_a_resumed_run_was_started_wit
     expect_refusal(evolve(config, never, {"--founders", clones, other, clones}), 2, clones + " is named twice");
     expect_refusal(evolve(config, never, {"--founders", clones, other, "--set", "founders.share=0.03"}), 2,
                    "2 origins share 1 founders");
+    std::vector<std::string> many{"--founders"};
+    for (int i = 0; i < 201; ++i) many.push_back(scratch.file(fmt::format("clones{}.lore", i)));
+    expect_refusal(evolve(config, never, many), 2, "a run takes them from 200 at most");
     EXPECT_FALSE(exists(never));
 }
 
@@ -131,6 +134,14 @@ TEST_F(Founders, are_needed_no_more_once_generation_0_is_past) {
     std::filesystem::rename(clones, scratch.file("moved.lore"));
     EXPECT_EQ(signature_of("stopped", {"--founders", clones, "--resume"}), expected);
     EXPECT_EQ(results(stopped), results(whole));
+}
+
+TEST_F(Founders, of_a_run_are_needed_no_more_once_generation_0_is_past_though_its_directory_is_gone) {
+    std::string const expected = signature_of("whole", {"--founders", clones, source});
+    Command start{scratch, evolve(config, scratch.file("stopped"), {"--founders", clones, source, "--max-time", "0"})};
+    EXPECT_EQ(start.wait(), 75) << start.err();
+    std::filesystem::remove_all(source);
+    EXPECT_EQ(signature_of("stopped", {"--founders", clones, source, "--resume"}), expected);
 }
 
 TEST_F(Founders, of_a_resumed_run_are_those_it_was_started_with) {
