@@ -35,15 +35,25 @@ std::string text(FailureRecord const& failure) {
                        failure.log_tail.empty() ? "" : ": ", failure.log_tail.empty() ? "" : failure.log_tail.back());
 }
 
-/// Settings of a finished run that differ from the plan and change its results.
+/// A finished run of a target task of which the plan asks for more generations goes on; of a source task it does not,
+/// because bases may have been built from it as it is.
+bool goes_on(CampaignPlan const& plan, Treatment const& treatment, Manifest const& manifest, int generations) {
+    bool const is_target = std::any_of(plan.targets.begin(), plan.targets.end(),
+                                       [&](Treatment const& target) { return target.name == treatment.name; });
+    return is_target && generations > manifest.generation;
+}
+
+/// Settings of a finished run that differ from the plan and change its results; its length is one unless it `goes_on`.
 std::vector<SettingDifference> other_settings(CampaignPlan const& plan, Treatment const& treatment,
-                                              std::string const& run) {
+                                              std::string const& run, bool goes_on) {
     ExperimentConfig planned = read_config(plan.config_path(treatment), treatment.overrides);
     ExperimentConfig made = read_config(in(run, run_file::config));
     // A knowledge base on the command line turns the objective on.
     planned.evolution.use_shaping = made.evolution.use_shaping = !treatment.knowledge.empty();
     auto differences = differing_settings(made, planned);
-    std::erase_if(differences, [](SettingDifference const& one) { return one.affects == Affects::nothing; });
+    std::erase_if(differences, [&](SettingDifference const& one) {
+        return one.affects == Affects::nothing || (goes_on && one.affects == Affects::length);
+    });
     return differences;
 }
 
@@ -84,7 +94,8 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
         if (seed && manifest->seed != *seed)
             return say(StepStatus::failed,
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
-        if (auto const others = other_settings(plan, treatment, run); !others.empty())
+        bool const longer = goes_on(plan, treatment, *manifest, state.generations);
+        if (auto const others = other_settings(plan, treatment, run, longer); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
         auto const choice = treatment.policy_of.empty() ? std::nullopt : recorded_choices(plan, directory);
         CommandContext const context{plan, directory, choice ? &*choice : nullptr};
@@ -92,7 +103,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
         if (!fs::exists(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
-        return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));
+        if (!longer) return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));
     }
     if (taken) return say(StepStatus::running, where);
     if (auto const failure = read_failure(directory, step)) return say(StepStatus::failed, text(*failure));

@@ -23,8 +23,9 @@ struct StepState {
 };
 
 /// A run is done when its manifest says so, and failed if it was made with other settings, another base or other
-/// founders than planned. A knowledge base is done when its file is there, since lore-kb writes all or nothing.
-/// `locks`: the holder of the step's lock ignores locks, because it would take itself for another process at work.
+/// founders than planned; that of a target task is interrupted if more generations are planned now. A knowledge base is
+/// done when its file is there, since lore-kb writes all or nothing. `locks`: the holder of the step's lock ignores
+/// locks, because it would take itself for another process at work.
 enum class Locks : std::uint8_t { looked_at, ignored };
 StepState state_of(CampaignPlan const&, CampaignDirectory const&, Step const&, Locks locks = Locks::looked_at);
 

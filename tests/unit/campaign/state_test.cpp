@@ -36,6 +36,38 @@ TEST_F(State, of_a_run_made_with_other_settings_is_failed_and_says_which) {
         << state("source/001").reason;
 }
 
+TEST_F(State, of_a_finished_run_goes_on_when_the_plan_asks_for_more_generations) {
+    std::string text = test::small_campaign;
+    text.replace(text.find("runs = 4"), 8, "runs = 4\ngenerations = 20");
+    write("campaign.toml", text);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    std::string const short_progress = read(directory().run("kb1/001") + "/progress.csv");
+    text.replace(text.find("generations = 20"), 16, "generations = 30");
+    write("campaign.toml", text);
+    EXPECT_EQ(state("source/001").status, StepStatus::done);
+    EXPECT_EQ(state("kb1/001").status, StepStatus::interrupted);
+    EXPECT_EQ(state("kb1/001").reason, "at generation 20 of 30");
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("kb1/001").status, StepStatus::done);
+    EXPECT_EQ(state("kb1/001").generation, 30);
+    EXPECT_TRUE(read(directory().run("kb1/001") + "/progress.csv").starts_with(short_progress));
+
+    text.replace(text.find("generations = 30"), 16, "generations = 10");
+    write("campaign.toml", text);
+    EXPECT_THAT(state("kb1/001").reason, HasSubstr("evolution.generations = 30, not 10")) << "not undone";
+}
+
+TEST_F(State, of_a_run_that_would_go_on_is_failed_if_another_setting_differs) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    std::string text = test::small_campaign;
+    text.replace(text.find("generations = 20"), 16, "generations = 30");
+    text.replace(text.find("label = \"no transfer\""), 21, "set = [\"evolution.population=100\"]");
+    write("campaign.toml", text);
+    EXPECT_EQ(state("none/001").status, StepStatus::failed);
+    EXPECT_THAT(state("none/001").reason, HasSubstr("evolution.population"));
+    EXPECT_EQ(state("none/001").reason.find("generations"), std::string::npos) << state("none/001").reason;
+}
+
 TEST_F(State, of_a_run_made_with_another_base_or_other_founders_is_failed_and_says_which) {
     std::string const given = "knowledge = \"kb1_all\"";
     auto const give = [&](std::string const& key) {
