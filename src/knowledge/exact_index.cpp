@@ -13,9 +13,10 @@
 // exact_shape.h has the bounds. How they are used depends on the set.
 //
 // While it grows, which is when a knowledge base is built, a search may use what it has found: buckets are visited from
-// the smallest to the largest, and after k of them a feature that has not been seen differs in at least k bits, so that
-// a match at a smaller distance ends the search; and bounds 1 and 3 shrink with the distance. Most of a bucket is
-// passed over by keys: bound 3 for sums over all steps, which fit into 8 bytes together with the number of set bits.
+// the smallest to the largest, those of halves before those of blocks. The more have been seen, the more bits must
+// differ in a feature that has not (KeyedSearch): a match at a smaller distance ends the search, and these bits leave
+// less for the continuous channels. Bounds 1 and 3 shrink with the distance, too. Most of a bucket is passed over by
+// keys: bound 3 for sums over all steps, which fit into 8 bytes together with the number of set bits.
 //
 // In a final set the features within reach of a pattern are remembered: windows of one run keep repeating the same
 // patterns (85 of 100 in an evolved population).
@@ -47,7 +48,7 @@ class ExactIndex : public FeatureIndex {
 public:
     /// Empty, to be added to.
     explicit ExactIndex(KnowledgeConfig const& config) : ExactIndex(config, nullptr) {
-        growing_.emplace(shape_.tables, masks_);
+        growing_.emplace(exact::growing_tables(shape_), exact::growing_masks_of(shape_));
     }
     /// Final.
     explicit ExactIndex(KnowledgeBase const&);
@@ -209,15 +210,18 @@ private:
         exact::Kernel const& kernel = index_.kernel();
         kernel.pack(index_.shape(), window.bits.data(), words_.data());
         std::size_t const room = index_.largest_bucket() + exact::spare_numbers;
-        if (numbers_.size() < room) numbers_.resize(room * 2);
+        if (numbers_.size() < room) {
+            numbers_.resize(room * 2);
+            sifted_.resize(room * 2);
+        }
         return kernel.summarize_with_key(index_.shape(), words_.data(), window.values.data(), digest_);
     }
 
     Match closest(Window const& window) {
         Key const key = read(window);
-        visits_.resize(static_cast<std::size_t>(index_.shape().tables));
+        visits_.resize(static_cast<std::size_t>(exact::growing_tables(index_.shape())));
         return result(index_.kernel().closest(index_.keyed(), {words_.data(), window.values.data()}, digest_, key,
-                                              {visits_.data(), numbers_.data(), recent_.data()}));
+                                              {visits_.data(), numbers_.data(), recent_.data(), sifted_.data()}));
     }
 
     /// The nearest of a ranked set, unless none of the first `first` is a match.
@@ -227,7 +231,7 @@ private:
         auto const among = [&](std::size_t from, std::size_t to, Nearest const& best) {
             return index_.kernel().closest_among(
                 index_.keyed(), {words_.data(), window.values.data()}, digest_, key,
-                {nullptr, numbers_.data(), nullptr},
+                {nullptr, numbers_.data(), nullptr, sifted_.data()},
                 {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)}, best);
         };
         Nearest const best = among(0, first, {-1, index_.shape().squared_threshold});
@@ -286,6 +290,7 @@ private:
     Digest digest_{};                            // of a set with keys, as is what follows
     std::vector<exact::Visit> visits_;
     std::vector<std::int32_t> numbers_;
+    std::vector<exact::Promising> sifted_;
     std::vector<std::int32_t> recent_ = std::vector<std::int32_t>(std::size_t{1} << exact::recent_bits, -1);
 };
 

@@ -181,26 +181,43 @@ struct KeyedSearch {
     LORE_INLINE float left(int differing) const {
         return best.squared_distance * (1 + shape().relative_error) - static_cast<float>(differing);
     }
-    LORE_INLINE void compare(std::int32_t feature) {
-        int const differing = differing_bits(record_of(feature));
+    LORE_INLINE void compare(std::int32_t feature, int differing) {
         take_if_nearer(best, feature,
                        continuous_distance(query.values, values_of(feature), value_count()) +
                            static_cast<float>(differing));
     }
 
-    /// Puts the window's buckets into the order of their sizes, the smallest first: often one is enough.
+    /// A table's bucket of the window.
+    LORE_INLINE Bucket bucket_of(int table) const {
+        std::uint64_t const slot =
+            hash_slot(query.words, view.tables.masks + table * shape().words, shape().words, view.tables.slot_bits);
+        return view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
+    }
+
+    /// Puts the window's buckets into the order in which they are visited: often one is enough. First those of the
+    /// halves, then those of the blocks of the half whose buckets are smaller; of each the smaller ones first.
     LORE_INLINE void order_visits() {
-        for (int table = 0; table < shape().tables; ++table) {
-            std::uint64_t const slot =
-                hash_slot(query.words, view.tables.masks + table * shape().words, shape().words, view.tables.slot_bits);
-            Bucket const bucket =
-                view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
-            __builtin_prefetch(view.keys + bucket.start);
-            __builtin_prefetch(view.numbers + bucket.start);
+        int const halves = shape().halves ? 2 : 0, tables = growing_tables(shape());
+        std::uint32_t in_blocks[2] = {0, 0};
+        for (int table = 0; table < tables; ++table) {
+            scratch.visits[table] = {bucket_of(table), table};
+            if (table >= halves) in_blocks[table % 2] += scratch.visits[table].bucket.count;
+        }
+        int const smaller = in_blocks[1] < in_blocks[0];
+        auto const rank = [&](Visit const& visit) {
+            std::uint64_t const group = visit.table < halves ? 0 : halves > 0 && visit.table % 2 != smaller ? 2 : 1;
+            return group << 32 | visit.bucket.count;
+        };
+        for (int table = 1; table < tables; ++table) {
+            Visit const visit = scratch.visits[table];
             int place = table;
-            for (; place > 0 && scratch.visits[place - 1].bucket.count > bucket.count; --place)
+            for (; place > 0 && rank(scratch.visits[place - 1]) > rank(visit); --place)
                 scratch.visits[place] = scratch.visits[place - 1];
-            scratch.visits[place] = {bucket, table};
+            scratch.visits[place] = visit;
+        }
+        for (int visit = 0; visit < 2 && visit < tables; ++visit) {
+            __builtin_prefetch(view.keys + scratch.visits[visit].bucket.start);
+            __builtin_prefetch(view.numbers + scratch.visits[visit].bucket.start);
         }
     }
 
@@ -216,12 +233,12 @@ struct KeyedSearch {
         return false;
     }
 
-    /// Writes the features of a bucket that may be better to scratch.numbers, and returns how many. `visits` buckets
-    /// were seen before.
-    LORE_INLINE int sift(Bucket bucket, int visits) {
+    /// Writes the features of a bucket that may be better to scratch.promising, and returns how many. `visits` buckets
+    /// were seen before; who was in none of them differs in `unseen` bits or more.
+    LORE_INLINE int sift(Bucket bucket, int visits, int unseen) {
         int const count =
             near_keys(view.keys + bucket.start, view.numbers + bucket.start, static_cast<int>(bucket.count), key,
-                      most_bits(), shape().key_bound.largest(left(0)), scratch.numbers);
+                      most_bits(), shape().key_bound.largest(left(unseen)), scratch.numbers);
         for (int i = 0; i < count; ++i) __builtin_prefetch(record_of(scratch.numbers[i]));
         int kept = 0;
         for (int i = 0; i < count; ++i) {
@@ -230,33 +247,63 @@ struct KeyedSearch {
             if (differing > most_bits() || shares_a_block(record, visits)) continue;
             Digest digest;
             std::memcpy(&digest, record + shape().words, sizeof digest);
-            if (summary_distance(summary, digest) > shape().summary_bound.largest(left(differing))) continue;
-            float const* const values = values_of(digest.feature);
-            for (int at = 0; at < value_count(); at += 16) __builtin_prefetch(values + at);
-            scratch.numbers[kept++] = digest.feature;
+            Promising const one{digest.feature, differing, summary_distance(summary, digest)};
+            if (is_promising(one)) scratch.promising[kept++] = one;
         }
         return kept;
     }
 
-    LORE_INLINE void look_through(Bucket bucket, int visits) {
-        int const kept = sift(bucket, visits);
-        for (int i = 0; i < kept; ++i) compare(scratch.numbers[i]);
+    LORE_INLINE bool is_promising(Promising const& one) const {
+        return one.apart <= shape().summary_bound.largest(left(one.differing));
+    }
+    /// Grows with the squared distance that bits and summary let expect.
+    LORE_INLINE float expected(Promising const& one) const {
+        return static_cast<float>(one.apart) + shape().summary_bound.slope * static_cast<float>(one.differing);
+    }
+
+    /// Compares those of a bucket that may be better, as sift() finds them. The one that is expected to be the nearest
+    /// comes first: it leaves little room for the others, whose values lie elsewhere in memory.
+    LORE_INLINE void look_through(Bucket bucket, int visits, int unseen) {
+        int const count = sift(bucket, visits, unseen);
+        if (count == 0) return;
+        Promising* const promising = scratch.promising;
+        int first = 0;
+        for (int i = 1; i < count; ++i)
+            if (expected(promising[i]) < expected(promising[first])) first = i;
+        compare(promising[first].feature, promising[first].differing);
+        int others = 0;
+        for (int i = 0; i < count; ++i) {
+            if (i == first || !is_promising(promising[i])) continue;
+            float const* const values = values_of(promising[i].feature);
+            for (int at = 0; at < value_count(); at += 16) __builtin_prefetch(values + at);
+            promising[others++] = promising[i];
+        }
+        for (int i = 0; i < others; ++i)
+            if (is_promising(promising[i])) compare(promising[i].feature, promising[i].differing);
     }
     /// The same by shares, the first of which find something that shortens the others.
     LORE_INLINE void look_through_shares(Bucket bucket) {
         while (bucket.count > 0) {
             Bucket const share{bucket.start, bucket.count < keys_at_once ? bucket.count : keys_at_once};
-            look_through(share, 0);
+            look_through(share, 0, 0);
             bucket.start += share.count;
             bucket.count -= share.count;
         }
     }
 
+    /// A feature in none of the buckets seen so far differs in a bit of each half and of each block that they were of.
     LORE_INLINE void look_through_tables() {
-        for (int visit = 0; visit < shape().tables; ++visit) {
-            // A feature in none of the buckets seen so far differs in a bit of each of their blocks.
-            if (best.squared_distance < static_cast<float>(visit)) break;
-            look_through(scratch.visits[visit].bucket, visit);
+        int blocks[2] = {0, 0};      // seen, of the even and of the odd ones
+        int of_halves[2] = {0, 0};   // 1: the half was seen
+        for (int visit = 0; visit < growing_tables(shape()); ++visit) {
+            int unseen = 0;
+            for (int half = 0; half < 2; ++half)
+                unseen += blocks[half] > of_halves[half] ? blocks[half] : of_halves[half];
+            if (best.squared_distance < static_cast<float>(unseen)) break;
+            look_through(scratch.visits[visit].bucket, visit, unseen);
+            int const table = scratch.visits[visit].table;
+            if (shape().halves && table < 2) of_halves[table] = 1;
+            else ++blocks[table % 2];
         }
     }
 
@@ -276,7 +323,7 @@ Nearest closest(KeyedView const& view, Query const& query, Digest const& summary
     KeyedSearch search{view, query, summary, key, scratch, {-1, shape.squared_threshold}};
     search.order_visits();
     std::int32_t& recent = scratch.recent[search.recent_slot()];
-    if (recent >= 0) search.compare(recent);
+    if (recent >= 0) search.compare(recent, search.differing_bits(search.record_of(recent)));
     if (!shape.hashes) search.look_through_shares(scratch.visits[0].bucket);
     else search.look_through_tables();
     if (search.best.feature >= 0) recent = search.best.feature;

@@ -39,9 +39,12 @@ struct Shape {
     int block_starts[summary_size + 1];   ///< steps; block b ends where the next one starts
     float scales[summary_size];           ///< of a summary's numbers
     float key_scales[key_size];           ///< of a key's
+    /// One a block of bits, or one if bits are too few to tell features apart: then one bucket holds all.
     int tables;
-    /// Whether the tables hash bits. If these are too few to tell features apart, one bucket holds all.
     bool hashes;
+    /// Whether a set that grows has, before those of the blocks, two tables of half the bits each: table 0 hashes the
+    /// blocks of even number, table 1 those of odd number.
+    bool halves;
     int most_differing;   ///< bits
     float squared_threshold;
     float relative_error;   ///< of a squared distance in float
@@ -113,14 +116,25 @@ struct Visit {
     std::int32_t table;
 };
 
+/// Tables of a set that grows.
+LORE_INLINE constexpr int growing_tables(Shape const& shape) { return shape.tables + (shape.halves ? 2 : 0); }
+
+/// A feature that bits and sums do not rule out.
+struct Promising {
+    std::int32_t feature;
+    std::int32_t differing;   ///< bits
+    std::int32_t apart;       ///< distance of the summaries
+};
+
 /// Memory that a search by keys needs.
 struct Scratch {
-    Visit* visits;           ///< one a table
+    Visit* visits;           ///< one a table: growing_tables
     std::int32_t* numbers;   ///< room for the largest bucket and spare_numbers more
     /// [2^recent_bits]: what windows like this one matched last, or -1; it is tried first, because the nearer a match
     /// is that is already known, the less there is to look at. Alike: their bits, or their keys where bits are not
     /// hashed, have the same hash.
     std::int32_t* recent;
+    Promising* promising;   ///< room for the largest bucket
 };
 inline constexpr int recent_bits = 16;
 inline constexpr int spare_numbers = 8;

@@ -10,6 +10,8 @@ namespace {
 static_assert(most_continuous == most_channels);
 constexpr int fewest_block_bits = 12;   ///< a table of 2^12 slots still tells a KB of 24 000 features apart
 
+constexpr int fewest_halved_blocks = 4;   ///< of fewer, a half is hardly more than a block
+
 int most_differing_bits(KnowledgeConfig const& config) {
     double const bits = static_cast<double>(config.window_length) * config.channels.binary_count();
     return static_cast<int>(std::clamp(std::ceil(static_cast<double>(config.squared_threshold())) - 1, 0.0, bits));
@@ -58,6 +60,16 @@ void shape_sums(Shape& shape) {
     shape.key_bound = scale_sums(dealt_out(channels, key_size, shape.window_length), shape.key_scales);
 }
 
+/// [part][word]: the bits of the blocks b with b mod `parts` equal to the part.
+std::vector<std::uint64_t> masks_of_parts(Shape const& shape, int parts) {
+    std::vector<std::uint64_t> masks(static_cast<std::size_t>(parts * shape.words), 0);
+    for (int bit = 0; bit < shape.window_length * shape.binary; ++bit) {
+        int const part = bit % shape.tables % parts;
+        masks[static_cast<std::size_t>(part * shape.words + bit / 64)] |= std::uint64_t{1} << (bit % 64);
+    }
+    return masks;
+}
+
 }   // namespace
 
 Shape shape_of(KnowledgeConfig const& config) {
@@ -71,6 +83,7 @@ Shape shape_of(KnowledgeConfig const& config) {
     shape.most_differing = most_differing_bits(config);
     shape.hashes = bits / (shape.most_differing + 1) >= fewest_block_bits;
     shape.tables = shape.hashes ? shape.most_differing + 1 : 1;
+    shape.halves = shape.tables >= fewest_halved_blocks;
     shape.squared_threshold = config.squared_threshold();
     shape.relative_error = static_cast<float>((shape.continuous * config.window_length / 16.0 + 10) * 0x1p-23);
     shape_sums(shape);
@@ -78,10 +91,14 @@ Shape shape_of(KnowledgeConfig const& config) {
 }
 
 std::vector<std::uint64_t> masks_of(Shape const& shape) {
-    std::vector<std::uint64_t> masks(static_cast<std::size_t>(shape.tables * shape.words), 0);
-    if (!shape.hashes) return masks;
-    for (int bit = 0; bit < shape.window_length * shape.binary; ++bit)
-        masks[static_cast<std::size_t>(bit % shape.tables * shape.words + bit / 64)] |= std::uint64_t{1} << (bit % 64);
+    if (!shape.hashes) return std::vector<std::uint64_t>(static_cast<std::size_t>(shape.words), 0);
+    return masks_of_parts(shape, shape.tables);
+}
+
+std::vector<std::uint64_t> growing_masks_of(Shape const& shape) {
+    std::vector<std::uint64_t> masks = shape.halves ? masks_of_parts(shape, 2) : std::vector<std::uint64_t>{};
+    auto const blocks = masks_of(shape);
+    masks.insert(masks.end(), blocks.begin(), blocks.end());
     return masks;
 }
 

@@ -16,7 +16,8 @@
 //    table per block finds all windows that agree in it ("multi-index hashing", Norouzi et al. 2012). Bit i belongs to
 //    block i mod (D + 1): of many partitions tried this one leads to the fewest features, ten times fewer than blocks
 //    of whole channels, which change seldom, or of neighboring steps. Blocks of a few bits select nothing; then one
-//    bucket holds all features.
+//    bucket holds all features. Where there are four blocks or more, a table per half of them finds with smaller
+//    buckets all windows that differ in at most one bit.
 // 3. Part a window's continuous values into groups. By Cauchy and Schwarz the squared difference of two sums of m
 //    values each is at most m times the sum of the m squared differences. Divide each group's sum by the square root
 //    of its m: the squared distance of two windows' sums is then at most that of their values. Sums over one channel
@@ -29,8 +30,10 @@
 namespace lore::exact {
 
 Shape shape_of(KnowledgeConfig const&);
-/// Tables::masks: the bits of each block, or none if the tables do not hash.
+/// Tables::masks of a final set: the bits of each block, or none if the tables do not hash.
 std::vector<std::uint64_t> masks_of(Shape const&);
+/// Those of a set that grows: if it has them, the halves before the blocks.
+std::vector<std::uint64_t> growing_masks_of(Shape const&);
 /// FixedView::limits.
 std::vector<std::int32_t> limits_of(Shape const&);
 

@@ -28,8 +28,8 @@ std::uint64_t* Records::add() {
     return words_.data() + words_.size() - size_;
 }
 
-GrowingTables::GrowingTables(int tables, std::vector<std::uint64_t> const& masks)
-    : tables_(tables), words_(words_of_a_mask(masks, tables)), masks_(&masks),
+GrowingTables::GrowingTables(int tables, std::vector<std::uint64_t> masks)
+    : tables_(tables), words_(words_of_a_mask(masks, tables)), masks_(std::move(masks)),
       buckets_(static_cast<std::size_t>(tables) << slot_bits_) {}
 
 void GrowingTables::add(Records const& records, Key const& key) {
@@ -40,7 +40,7 @@ void GrowingTables::add(Records const& records, Key const& key) {
 }
 
 void GrowingTables::insert(int table, std::uint64_t const* pattern, Key const& key, std::int32_t number) {
-    Bucket& bucket = buckets_[bucket_of(table, pattern, *masks_, words_, slot_bits_)];
+    Bucket& bucket = buckets_[bucket_of(table, pattern, masks_, words_, slot_bits_)];
     bool const full = bucket.count == 0 || std::has_single_bit(bucket.count);
     if (full) {
         std::uint32_t const start = take_room(std::max(1u, bucket.count * 2));

@@ -30,11 +30,11 @@ private:
 /// few that these do not rule out is fetched from the records.
 class GrowingTables {
 public:
-    GrowingTables(int tables, std::vector<std::uint64_t> const& masks);
+    GrowingTables(int tables, std::vector<std::uint64_t> masks);
 
     /// The last of the records, which `key` belongs to.
     void add(Records const&, Key const&);
-    Tables view() const { return {masks_->data(), buckets_.data(), slot_bits_}; }
+    Tables view() const { return {masks_.data(), buckets_.data(), slot_bits_}; }
     Key const* keys() const { return keys_.data(); }
     std::int32_t const* numbers() const { return numbers_.data(); }
     std::size_t largest_bucket() const { return largest_; }
@@ -45,7 +45,7 @@ private:
     void double_slots(Records const&);
 
     int tables_, words_;
-    std::vector<std::uint64_t> const* masks_;
+    std::vector<std::uint64_t> masks_;
     int slot_bits_ = 8;                   ///< always at least as many slots as features
     std::vector<Bucket> buckets_;         ///< with room for as many places as the next power of two
     std::vector<Key> keys_;               ///< [place]

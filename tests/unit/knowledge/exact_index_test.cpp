@@ -140,6 +140,38 @@ TEST(ExactIndex, equals_the_scan_on_every_instruction_set_while_it_grows) {
     }
 }
 
+TEST(ExactIndex, equals_the_scan_where_the_nearest_differ_in_a_few_bits) {
+    // Around a few patterns, so that a search finds matches early and must not end before the nearest is seen.
+    for (float const threshold : {1.5f, 1.83f, 2.2f, 3.0f}) {   // 3, 4, 5 and 9 tables
+        KnowledgeConfig const config = test::config_of(20, threshold);
+        Stream rng{12, Purpose::test};
+        std::vector<Trace> centers;
+        for (int i = 0; i < 3; ++i) centers.push_back(test::lifelike_trace(rng, config.window_length));
+        auto const near_a_center = [&] {
+            Trace trace = centers[rng.below(3)];
+            for (std::size_t flips = rng.below(7); flips > 0; --flips)
+                trace.channel_bits[rng.below(20)] ^= static_cast<std::uint16_t>(1u << rng.below(binary_count));
+            for (float& value : trace.values)
+                value = std::clamp(value + static_cast<float>(rng.uniform(-0.03, 0.03)), 0.0f, 1.0f);
+            return trace;
+        };
+        auto const scan = make_scan_index(config), exact = make_exact_index(config);
+        auto const scan_search = scan->search(), exact_search = exact->search();
+        int with_bits = 0;
+        for (int i = 0; i < 3000; ++i) {
+            Trace const trace = near_a_center();
+            Window const window = windows_of(trace, config.window_length)[0];
+            Match const expected = scan_search->match(window);
+            ASSERT_EQ(exact_search->match(window), expected) << threshold;
+            with_bits += expected.found() && expected.squared_distance > 2;
+            if (i % 3 > 0) continue;
+            scan->add(window);
+            exact->add(window);
+        }
+        EXPECT_GT(with_bits, 100);
+    }
+}
+
 TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     // A robot that sees nothing: only the continuous channels tell its windows apart.
     KnowledgeConfig const config = test::config_of();
