@@ -194,9 +194,27 @@ NameList read_order(TomlTable const& table, NameList const& treatments) {
     return *std::move(order);
 }
 
+NameList read_compared(TomlTable const& table, CampaignPlan const& plan) {
+    NameList known = plan.report_order;
+    for (PoolPlan const& pool : plan.pools) known.push_back(pool.name);
+    NameList const names = table.strings("figure3").value_or(NameList{});
+    for (std::string const& name : names) {
+        require_known(table, "figure3", name, known);
+        if (PoolPlan const* const pool = plan.pool(name))
+            for (std::string const& treatment : pool->treatments)
+                if (plan.treatment(treatment).target != plan.treatment(pool->treatments.front()).target)
+                    table.fail("figure3", fmt::format("'{}' pools treatments of several target tasks", name),
+                               "Name pools of one task, or treatments.");
+        if (std::count(names.begin(), names.end(), name) > 1)
+            table.fail("figure3", fmt::format("it names '{}' twice", name), "Name each once.");
+    }
+    return names;
+}
+
 FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
     NameList const bases = names_of(plan.knowledge);
     FigurePlan figures;
+    figures.figure3 = read_compared(table, plan);
     figures.trajectory = table.string("trajectory").value_or("");
     figures.figure5 = table.strings("figure5").value_or(NameList{});
     figures.figure6 = table.strings("figure6").value_or(NameList{});

@@ -37,22 +37,21 @@ std::string text(FailureRecord const& failure) {
 
 /// A finished run of a target task of which the plan asks for more generations goes on; of a source task it does not,
 /// because bases may have been built from it as it is.
-bool goes_on(CampaignPlan const& plan, Treatment const& treatment, Manifest const& manifest, int generations) {
+bool goes_on(CampaignPlan const& plan, Treatment const& treatment, ExperimentConfig const& made, int generations) {
     bool const is_target = std::any_of(plan.targets.begin(), plan.targets.end(),
                                        [&](Treatment const& target) { return target.name == treatment.name; });
-    return is_target && generations > manifest.generation;
+    return is_target && generations > made.evolution.generations;
 }
 
-/// Settings of a finished run that differ from the plan and change its results; its length is one unless it `goes_on`.
+/// Settings of a finished run that differ from the plan and change its results; its length is one unless it goes on.
 std::vector<SettingDifference> other_settings(CampaignPlan const& plan, Treatment const& treatment,
-                                              std::string const& run, bool goes_on) {
+                                              ExperimentConfig made, bool longer) {
     ExperimentConfig planned = read_config(plan.config_path(treatment), treatment.overrides);
-    ExperimentConfig made = read_config(in(run, run_file::config));
     // A knowledge base on the command line turns the objective on.
     planned.evolution.use_shaping = made.evolution.use_shaping = !treatment.knowledge.empty();
     auto differences = differing_settings(made, planned);
     std::erase_if(differences, [&](SettingDifference const& one) {
-        return one.affects == Affects::nothing || (goes_on && one.affects == Affects::length);
+        return one.affects == Affects::nothing || (longer && one.affects == Affects::length);
     });
     return differences;
 }
@@ -94,8 +93,9 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
         if (seed && manifest->seed != *seed)
             return say(StepStatus::failed,
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
-        bool const longer = goes_on(plan, treatment, *manifest, state.generations);
-        if (auto const others = other_settings(plan, treatment, run, longer); !others.empty())
+        ExperimentConfig const made = read_config(in(run, run_file::config));
+        bool const longer = goes_on(plan, treatment, made, state.generations);
+        if (auto const others = other_settings(plan, treatment, made, longer); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
         auto const choice = treatment.policy_of.empty() ? std::nullopt : recorded_choices(plan, directory);
         CommandContext const context{plan, directory, choice ? &*choice : nullptr};

@@ -63,8 +63,22 @@ struct Curve {
     double end() const { return rows.back()->generation; }
 };
 
-/// One a treatment that has runs: those of source tasks whose reward has the same unit, then those of the report's
-/// order.
+/// Names of treatments and pools, the treatments being of those of the plan's order.
+std::vector<std::string> shown_names(CampaignPlan const& plan) {
+    if (plan.figures.figure3.empty()) return plan.report_order;
+    std::vector<std::string> names = plan.figures.figure3;
+    auto const is_there = [&](std::string const& treatment) {
+        return std::find(plan.report_order.begin(), plan.report_order.end(), treatment) != plan.report_order.end();
+    };
+    std::erase_if(names, [&](std::string const& name) {
+        PoolPlan const* const pool = plan.pool(name);
+        return !is_there(pool == nullptr ? name : pool->treatments.front());
+    });
+    return names;
+}
+
+/// One a treatment or pool that has runs: those of source tasks whose reward has the same unit, then those of the
+/// report's order.
 std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     // Source runs may be longer than those on the target task, which the figure is about.
     int last = -1;
@@ -74,18 +88,20 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
 
     std::vector<Curve> curves;
     std::string const unit = results.reward_unit(plan);
-    auto const add = [&](Treatment const& treatment, std::string_view color, bool dashed) {
-        if (results.unit_of(treatment.name).value_or(unit) != unit) return;   // another axis
-        Curve curve{treatment.label, color, dashed, {}};
+    auto const add = [&](std::string const& name, std::string const& label, std::string_view color, bool dashed) {
+        PoolPlan const* const pool = plan.pool(name);
+        if (results.unit_of(pool == nullptr ? name : pool->treatments.front()).value_or(unit) != unit)
+            return;   // another axis
+        Curve curve{label, color, dashed, {}};
         for (CurveRow const& row : results.curves)
-            if (row.treatment == treatment.name && row.generation <= last) curve.rows.push_back(&row);
+            if (row.treatment == name && row.generation <= last) curve.rows.push_back(&row);
         if (curve.rows.empty()) return;
         curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
         curves.push_back(std::move(curve));
     };
-    for (Treatment const& source : plan.sources) add(source, source_color, true);
-    for (std::size_t i = 0; i < plan.report_order.size(); ++i)
-        add(plan.treatment(plan.report_order[i]), treatment_color(i), i >= 7);
+    for (Treatment const& source : plan.sources) add(source.name, source.label, source_color, true);
+    std::vector<std::string> const names = shown_names(plan);
+    for (std::size_t i = 0; i < names.size(); ++i) add(names[i], plan.label(names[i]), treatment_color(i), i >= 7);
     return curves;
 }
 
@@ -233,13 +249,13 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     RewardWords const words = reward_words(results.reward_unit(plan));
     bool const counts = results.are_counts();
     double highest = std::numeric_limits<double>::lowest(), lowest = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
-        Treatment const& treatment = plan.treatment(plan.report_order[i]);
-        auto rewards = results.final_rewards(treatment.name);
+    std::vector<std::string> const names = shown_names(plan);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        auto rewards = rewards_of(plan, results, names[i]);
         if (rewards.empty()) continue;
         highest = std::max(highest, *std::max_element(rewards.begin(), rewards.end()));
         lowest = std::min(lowest, *std::min_element(rewards.begin(), rewards.end()));
-        boxes.push_back({treatment.name, treatment.label, treatment_color(i), std::move(rewards)});
+        boxes.push_back({names[i], plan.label(names[i]), treatment_color(i), std::move(rewards)});
     }
     auto const place = [&](std::string const& name) {
         return static_cast<std::size_t>(
@@ -247,7 +263,7 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     };
     std::vector<Bracket> brackets;
     for (Comparison const& c : comparisons) {
-        if (significance_mark(c.p).empty()) continue;
+        if (significance_mark(c.p).empty() || place(c.a) == boxes.size() || place(c.b) == boxes.size()) continue;
         auto const [from, to] = std::minmax({place(c.a), place(c.b)});
         brackets.push_back({from, to, significance_mark(c.p)});
     }

@@ -7,12 +7,14 @@
 
 namespace lore {
 
+// Both figures show FigurePlan::figure3, without treatments and pools of other target tasks than the plan's order.
+
 /// Figure 3: mean reward of the best-of-run by generation, a line a treatment with its confidence band, labeled at its
 /// end. An SVG document. Treatments without runs are left out.
 std::string draw_curves(CampaignPlan const&, Results const&);
 
 /// Figure 4: a boxplot a target treatment at the last generation with every run as a point, and a bracket with the
-/// paper's mark over each pair with p < 1e-2.
+/// paper's mark over each pair of them with p < 1e-2.
 std::string draw_boxplots(CampaignPlan const&, Results const&, std::vector<Comparison> const&);
 
 /// Color of the i-th target treatment: Okabe and Ito's palette (2008), told apart by color-blind readers.

@@ -31,7 +31,8 @@ void check_names(CampaignPlan const& plan, Results const& results) {
                     "Use the campaign's file that made these results.");
     };
     for (RunRow const& row : results.runs) check_treatment("final.csv", row.treatment);
-    for (CurveRow const& row : results.curves) check_treatment("curves.csv", row.treatment);
+    for (CurveRow const& row : results.curves)
+        if (plan.pool(row.treatment) == nullptr) check_treatment("curves.csv", row.treatment);
     for (PopulationRow const& row : results.populations) check_treatment("population.csv", row.treatment);
     for (SpeedRow const& row : results.speeds) check_treatment("speed.csv", row.treatment);
     for (LeadRow const& row : results.leads)
@@ -79,7 +80,9 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings 
     Figures figures;
     for (TaskPart const& part : findings.parts) {
         figures[part.figure("figure3")] = draw_curves(part.plan, part.results);
-        figures[part.figure("figure4")] = draw_boxplots(part.plan, part.results, part.comparisons);
+        auto compared = part.comparisons;
+        compared.insert(compared.end(), findings.planned.begin(), findings.planned.end());
+        figures[part.figure("figure4")] = draw_boxplots(part.plan, part.results, compared);
     }
     if (!findings.matrix.empty()) figures["matrix"] = draw_matrix(plan, findings.matrix);
     for (std::string const figure : {"figure5", "figure6"})

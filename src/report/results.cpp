@@ -23,6 +23,12 @@ namespace fs = std::filesystem;
 /// Curves are kept at so many generations at most: what a figure can show.
 constexpr int most_curve_points = 401;
 
+/// The runs of a treatment or a pool as curves of the best reward, from generation 0.
+struct RewardCurves {
+    std::string name;
+    std::vector<std::vector<double>> curves;
+};
+
 /// Generations that all of the runs have reached.
 int common_length(std::vector<FinishedRun> const& runs) {
     auto const shortest = std::min_element(runs.begin(), runs.end(), [](FinishedRun const& a, FinishedRun const& b) {
@@ -44,22 +50,28 @@ RunRow row_of(Treatment const& treatment, FinishedRun const& run) {
             manifest.world.reward_unit.empty() ? std::string{first_reward_unit} : manifest.world.reward_unit};
 }
 
-std::vector<CurveRow> curve_of(Treatment const& treatment, std::vector<FinishedRun> const& runs) {
-    auto const length = static_cast<std::size_t>(common_length(runs));
+std::size_t common_length(RewardCurves const& runs) {
+    std::size_t length = runs.curves.front().size();
+    for (std::vector<double> const& curve : runs.curves) length = std::min(length, curve.size());
+    return length;
+}
+
+std::vector<CurveRow> curve_of(RewardCurves const& runs) {
+    std::size_t const length = common_length(runs);
     std::size_t const stride = std::max<std::size_t>(1, (length - 1 + most_curve_points - 2) / (most_curve_points - 1));
     std::vector<std::size_t> generations;
     for (std::size_t g = 0; g < length; g += stride) generations.push_back(g);
     if (generations.back() != length - 1) generations.push_back(length - 1);
 
     std::vector<std::vector<double>> curves;
-    for (FinishedRun const& run : runs) {
+    for (std::vector<double> const& rewards : runs.curves) {
         curves.emplace_back();
-        for (std::size_t const g : generations) curves.back().push_back(run.progress[g].best_reward);
+        for (std::size_t const g : generations) curves.back().push_back(rewards[g]);
     }
     MeanBand const band = bootstrap_mean_band(curves);
     std::vector<CurveRow> rows;
     for (std::size_t c = 0; c < generations.size(); ++c)
-        rows.push_back({treatment.name, static_cast<int>(generations[c]), static_cast<int>(runs.size()), band.mean[c],
+        rows.push_back({runs.name, static_cast<int>(generations[c]), static_cast<int>(curves.size()), band.mean[c],
                         band.low[c], band.high[c]});
     return rows;
 }
@@ -92,44 +104,37 @@ std::vector<PopulationRow> populations_of(Treatment const& treatment, std::vecto
     return rows;
 }
 
-/// A treatment's runs as curves of the best reward, from generation 0.
-struct TreatmentCurves {
-    std::string treatment;
-    std::vector<std::vector<double>> curves;
-};
-
 /// How fast the treatments of one task are, over the generations that all their runs have.
-void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results,
+void add_speeds(CampaignPlan const& plan, std::vector<RewardCurves> const& targets, Results& results,
                 std::vector<Milestone>& milestones) {
     if (targets.empty()) return;
-    std::size_t length = targets.front().curves.front().size();
-    for (TreatmentCurves const& target : targets)
-        for (std::vector<double> const& curve : target.curves) length = std::min(length, curve.size());
+    std::size_t length = common_length(targets.front());
+    for (RewardCurves const& target : targets) length = std::min(length, common_length(target));
     int const last = static_cast<int>(length) - 1;
     std::vector<double> finals;
-    for (TreatmentCurves const& target : targets)
+    for (RewardCurves const& target : targets)
         for (std::vector<double> const& curve : target.curves) finals.push_back(curve.back());
-    std::string const unit = results.unit_of(targets.front().treatment).value_or(std::string{first_reward_unit});
+    std::string const unit = results.unit_of(targets.front().name).value_or(std::string{first_reward_unit});
     std::vector<double> levels = timed_levels(plan, unit, finals);
     // A row of speed.csv has as many levels as the others: equal ones of a task whose runs have all got the same.
     if (levels.empty() && !plan.tasks.empty()) levels.assign(first_reward_levels.size(), finals.front());
-    for (TreatmentCurves const& target : targets) {
-        results.speeds.push_back(speed_of(target.treatment, target.curves, last, levels));
+    for (RewardCurves const& target : targets) {
+        results.speeds.push_back(speed_of(target.name, target.curves, last, levels));
         for (int const generation : milestones_to(last)) {
             double sum = 0;
             for (std::vector<double> const& curve : target.curves) sum += curve[static_cast<std::size_t>(generation)];
-            milestones.push_back({target.treatment, generation, sum / static_cast<double>(target.curves.size())});
+            milestones.push_back({target.name, generation, sum / static_cast<double>(target.curves.size())});
         }
     }
 }
 
 /// Treatments of different tasks are not compared.
-void add_speeds(CampaignPlan const& plan, std::vector<TreatmentCurves> const& targets, Results& results) {
+void add_speeds(CampaignPlan const& plan, std::vector<RewardCurves> const& targets, Results& results) {
     std::vector<Milestone> milestones;
     for (TaskGroup const& group : task_groups(plan)) {
-        std::vector<TreatmentCurves> of_task;
-        for (TreatmentCurves const& target : targets)
-            if (std::find(group.treatments.begin(), group.treatments.end(), target.treatment) != group.treatments.end())
+        std::vector<RewardCurves> of_task;
+        for (RewardCurves const& target : targets)
+            if (std::find(group.treatments.begin(), group.treatments.end(), target.name) != group.treatments.end())
                 of_task.push_back(target);
         add_speeds(plan, of_task, results, milestones);
     }
@@ -140,6 +145,20 @@ std::vector<double> best_rewards(std::vector<GenerationSummary> const& progress)
     std::vector<double> rewards;
     for (GenerationSummary const& generation : progress) rewards.push_back(generation.best_reward);
     return rewards;
+}
+
+RewardCurves pooled(PoolPlan const& pool, std::vector<RewardCurves> const& targets) {
+    RewardCurves all{pool.name, {}};
+    for (RewardCurves const& target : targets)
+        if (std::find(pool.treatments.begin(), pool.treatments.end(), target.name) != pool.treatments.end())
+            all.curves.insert(all.curves.end(), target.curves.begin(), target.curves.end());
+    return all;
+}
+
+void add_curve(RewardCurves const& runs, Results& results) {
+    if (runs.curves.empty()) return;
+    auto const rows = curve_of(runs);
+    results.curves.insert(results.curves.end(), rows.begin(), rows.end());
 }
 
 std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirectory const& directory,
@@ -226,20 +245,21 @@ bool Results::are_counts() const {
 
 Results collect_results(CampaignPlan const& plan, CampaignDirectory const& directory) {
     Results results;
-    std::vector<TreatmentCurves> targets;
+    std::vector<RewardCurves> targets;
     for (std::string const& name : all_treatments(plan)) {
         Treatment const& treatment = plan.treatment(name);
         auto const runs = finished_runs(plan, directory, treatment);
         if (runs.empty()) continue;
         for (FinishedRun const& run : runs) results.runs.push_back(row_of(treatment, run));
-        auto const curve = curve_of(treatment, runs);
-        results.curves.insert(results.curves.end(), curve.begin(), curve.end());
+        RewardCurves rewards{name, {}};
+        for (FinishedRun const& run : runs) rewards.curves.push_back(best_rewards(run.progress));
+        add_curve(rewards, results);
         auto const populations = populations_of(treatment, runs);
         results.populations.insert(results.populations.end(), populations.begin(), populations.end());
-        if (plan.is_source(name)) continue;
-        targets.push_back({name, {}});
-        for (FinishedRun const& run : runs) targets.back().curves.push_back(best_rewards(run.progress));
+        if (!plan.is_source(name)) targets.push_back(std::move(rewards));
     }
+    for (std::string const& name : plan.figures.figure3)
+        if (PoolPlan const* const pool = plan.pool(name)) add_curve(pooled(*pool, targets), results);
     add_speeds(plan, targets, results);
     results.bases = knowledge_rows(plan, directory, recorded_choices(plan, directory));
     return results;

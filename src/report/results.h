@@ -25,7 +25,8 @@ struct RunRow {
     std::string reward_unit{first_reward_unit};
 };
 
-/// The mean best-of-run of a treatment's finished runs at one generation: a row of curves.csv.
+/// The mean best-of-run of the finished runs of a treatment, or of a pool of them, at one generation: a row of
+/// curves.csv.
 struct CurveRow {
     std::string treatment;
     int generation = 0;

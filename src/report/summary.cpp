@@ -54,6 +54,7 @@ void add_pools(CampaignPlan const& plan, Results const& results, std::vector<Com
         document["pools"].push_back(std::move(entry));
     }
     document["planned"] = json_of(planned);
+    if (!plan.figures.figure3.empty()) document["figure3"] = plan.figures.figure3;
 }
 
 /// A campaign without [transfer] has a summary without it.

@@ -30,11 +30,14 @@ TaskPart part_of(TaskGroup const& group, CampaignPlan const& plan, Results const
     }
     std::vector<std::string> const shown = all_treatments(part.plan);
     part.results.runs = rows_of(results.runs, shown);
-    part.results.curves = rows_of(results.curves, shown);
     part.results.speeds = rows_of(results.speeds, shown);
     auto const has = [&](std::string const& name) {
         return std::find(shown.begin(), shown.end(), name) != shown.end();
     };
+    std::vector<std::string> with_pools = shown;
+    for (PoolPlan const& pool : plan.pools)
+        if (has(pool.treatments.front())) with_pools.push_back(pool.name);
+    part.results.curves = rows_of(results.curves, with_pools);
     for (Comparison const& one : comparisons)
         if (has(one.a) && has(one.b)) part.comparisons.push_back(one);
     return part;

@@ -295,6 +295,16 @@ class Figures(LoreTest):
         p = report.comparisons["p"]
         self.assertEqual(marks, ["*"] * int(((p < 1e-2) & (p >= 1e-3)).sum()) + ["**"] * int((p < 1e-3).sum()))
 
+
+    def test_figures_show_the_pools_that_the_report_shows(self) -> None:
+        report = lore.Report(PAPER.parent / "all_bases")
+        self.assertIn("all", report.figure3)
+        lines = {line.get_label(): line for line in plot.figure3(report).axes[0].lines}
+        self.assertIn("ten bases (n = 40)", lines)
+        self.assertEqual(6, sum("n = 40" in label for label in lines))
+        labels = [text.get_text() for text in plot.figure4(report).axes[0].get_xticklabels()]
+        self.assertIn("ten bases\nn = 40", labels)
+        self.assertEqual(6, len(labels))
     def test_are_drawn_by_a_command(self) -> None:
         command = [sys.executable, "-B", "-m", "lore.plot"]
         done = subprocess.run([*command, PAPER, "--out", self.scratch / "out", "--formats", "png"], capture_output=True)

@@ -63,8 +63,9 @@ struct KnowledgePlan {
     std::vector<std::string> options;       ///< further arguments of lore-kb build or reduce
 };
 
-/// Which knowledge bases the pictures of trajectories show (paper, figures 5 and 6).
+/// What the figures show: treatments and pools (paper, figures 3 and 4), knowledge bases (figures 5 and 6).
 struct FigurePlan {
+    std::vector<std::string> figure3;   ///< names of treatments and pools, each once; empty: all treatments
     std::string trajectory;             ///< the knowledge base whose source run's best is shown; empty: no pictures
     std::vector<std::string> figure5;   ///< one panel each
     std::vector<std::string> figure6;   ///< the product of all of these

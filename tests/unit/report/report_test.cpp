@@ -192,6 +192,42 @@ TEST_F(Report, has_pools_where_the_campaign_has_them_and_nothing_of_them_else) {
     EXPECT_EQ(made("summary.json").find("\"pools\""), std::string::npos);
 }
 
+TEST_F(Report, shows_pools_for_their_treatments_where_the_campaign_asks_for_it) {
+    std::string const text = test::small_campaign + "figure3 = [\"with\", \"none\"]\n" +
+                             "[[pool]]\nname = \"with\"\nlabel = \"with knowledge\"\n" +
+                             "treatments = [\"kb1\", \"all\"]\nagainst = [\"none\"]\n";
+    write("campaign.toml", text);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory(), directory("again"));
+    for (char const* figure : {"figures/figure3.svg", "figures/figure4.svg"}) {
+        std::string const svg = made(figure, "again");
+        EXPECT_THAT(svg, ::testing::HasSubstr("with knowledge")) << figure;
+        EXPECT_THAT(svg, ::testing::HasSubstr("n = 6")) << figure;
+        EXPECT_THAT(svg, ::testing::Not(::testing::HasSubstr("KB1"))) << figure;
+    }
+    EXPECT_THAT(made("summary.json", "again"), ::testing::HasSubstr("\"figure3\""));
+    auto const last_mean = [&](std::string const& name) {
+        std::istringstream lines{made("curves.csv", "again")};
+        std::string line, last;
+        while (std::getline(lines, line))
+            if (line.starts_with(name + ",20,")) last = line;
+        std::istringstream fields{last};
+        for (int field = 0; field < 4; ++field) std::getline(fields, line, ',');
+        return std::stod(line);
+    };
+    EXPECT_NEAR(last_mean("with"), (last_mean("kb1") + last_mean("all")) / 2, 1e-3) << "three runs each";
+    std::string const figure = made("figures/figure3.svg", "again");
+    write_report(plan(), directory("again"));
+    EXPECT_EQ(made("figures/figure3.svg", "again"), figure) << "from the tables alone";
+
+    for (auto const& [names, words] :
+         {std::pair{"[\"none\", \"none\"]", "names 'none' twice"}, std::pair{"[\"nobody\"]", "'nobody'"}}) {
+        std::string wrong = text;
+        write("campaign.toml", wrong.replace(wrong.find("[\"with\", \"none\"]"), 16, names));
+        EXPECT_THAT(test::complaint_of<UsageError>([&] { plan(); }), ::testing::HasSubstr(words));
+    }
+}
+
 TEST_F(Report, needs_no_more_than_the_final_rewards_and_the_curves) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     write_report(plan(), directory());

@@ -38,7 +38,7 @@ _STEPS_BETWEEN_ROBOTS = 50
 
 
 def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
-    """Mean reward of the best-of-run by generation, a line a treatment with its 95 % bootstrap band.
+    """Mean reward of the best-of-run by generation, a line a treatment or pool with its 95 % bootstrap band.
 
     `task`: one of Report.tasks, whose treatments are shown; rewards of several tasks share no axis. Without it
     treatments whose reward has another unit than the first target task's are left out.
@@ -81,12 +81,17 @@ def _reward(report: Report, task: str | None) -> str:
 
 
 def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
-    """A boxplot a target treatment at the last generation, every run a point; brackets over pairs with p < 0.01 (*)
+    """A boxplot a target treatment or pool at the last generation, every run a point; brackets over pairs with p < 0.01 (*)
     and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper. `task`: as of figure3."""
     report = _report(report)
     final = report.final
-    treatments = [name for name in _targets(report, task) if len(final.where(treatment=name))]
-    rewards = [final.where(treatment=name)[report.reward_word] for name in treatments]
+    members = report.pools
+    of_all = {
+        name: final[report.reward_word][np.isin(final["treatment"], members.get(name, [name]))]
+        for name in _targets(report, task)
+    }
+    treatments = [name for name, of_one in of_all.items() if len(of_one)]
+    rewards = [of_all[name] for name in treatments]
     figure = Figure(figsize=(max(4.0, 1.1 + 1.05 * len(treatments)), 5.2), layout="constrained")
     axes = figure.add_subplot(ylabel=f"{_reward(report, task)} (best-of-run)")
     for place, (of_one, (_, style)) in enumerate(zip(rewards, _styles(treatments)), 1):
@@ -160,7 +165,10 @@ def _report(report: Report | FilePath) -> Report:
 
 
 def _targets(report: Report, task: str | None) -> list[str]:
-    """Target treatments in the order of figures, all or those of one target task."""
+    """What figures 3 and 4 show of one target task or of all: treatments in the order of figures, or the report's figure3."""
+    if report.figure3:
+        members = {name: report.pools.get(name, [name])[0] for name in report.figure3}
+        return [name for name in report.figure3 if task is None or members[name] in report.tasks[task]]
     there = dict.fromkeys(report.final["treatment"].tolist())
     ordered = [name for name in report.labels if name in there]
     shown = report.tasks[task] if task is not None else [name for name in there if name not in report.sources]
@@ -171,7 +179,8 @@ def _has_unit(report: Report, treatment: str) -> bool:
     """Whether its rewards have the unit of the (first) target task: others share no axis with them."""
     if report.reward_word == "balls":
         return True
-    return set(report.final.where(treatment=treatment)["unit"].tolist()) <= {report.reward_unit}
+    member = report.pools.get(treatment, [treatment])[0]
+    return set(report.final.where(treatment=member)["unit"].tolist()) <= {report.reward_unit}
 
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
@@ -194,15 +203,16 @@ def _side_by_side(rewards: NDArray[Any]) -> NDArray[np.float64]:
 
 def _brackets(report: Report, treatments: Sequence[str]) -> list[tuple[int, int, str, int]]:
     """From, to (places from 1), mark, and the lowest level that is free over all it spans."""
-    if not os.path.exists(os.path.join(report.path, "pvalues.csv")):
-        return []
-    pairs = report.comparisons
     places = {name: place for place, name in enumerate(treatments, 1)}
     found = []
-    for a, b, p in zip(pairs["a"].tolist(), pairs["b"].tolist(), pairs["p"].tolist()):
-        if p < 1e-2 and a in places and b in places:
-            low, high = sorted((places[a], places[b]))
-            found.append((low, high, "**" if p < 1e-3 else "*"))
+    for name, pairs in (("pvalues.csv", "comparisons"), ("pools.csv", "planned")):
+        if not os.path.exists(os.path.join(report.path, name)):
+            continue
+        table: Table = getattr(report, pairs)
+        for a, b, p in zip(table["a"].tolist(), table["b"].tolist(), table["p"].tolist()):
+            if p < 1e-2 and a in places and b in places:
+                low, high = sorted((places[a], places[b]))
+                found.append((low, high, "**" if p < 1e-3 else "*"))
     placed: list[tuple[int, int, str, int]] = []
     for low, high, mark in sorted(found, key=lambda bracket: bracket[1] - bracket[0]):
         taken = {level for other_low, other_high, _, level in placed if other_low < high and low < other_high}

@@ -123,6 +123,20 @@ class Report:
         return tasks
 
     @property
+    def pools(self) -> dict[str, list[str]]:
+        """The treatments of each pool."""
+        if not os.path.exists(self._file("summary.json")):
+            return {}
+        return {str(entry["pool"]): entry["treatments"] for entry in self.summary.get("pools", [])}
+
+    @property
+    def figure3(self) -> list[str]:
+        """Names of the treatments and pools that figures 3 and 4 show; empty: of all treatments of target tasks."""
+        if not os.path.exists(self._file("summary.json")):
+            return []
+        return [str(name) for name in self.summary.get("figure3", [])]
+
+    @property
     def runs(self) -> Table:
         """The same, then generations, evaluations, signature, version."""
         return self._table("runs.csv", treatment="text", run="int", seed="seed", balls="int", generations="int",
@@ -130,7 +144,7 @@ class Report:
 
     @property
     def curves(self) -> Table:
-        """treatment, generation, runs, mean of the best-of-runs [reward unit], low, high (95 % bootstrap band)."""
+        """treatment (or a pool of figure3), generation, runs, mean of the best-of-runs [reward unit], low, high (95 % bootstrap band)."""
         return self._table("curves.csv", treatment="text", generation="int", runs="int", mean="float", low="float",
                            high="float")  # fmt: skip
 
@@ -151,6 +165,12 @@ class Report:
         """A row a pair of treatments (pvalues.csv): a, b, n_a, n_b, u, p, p_holm, a12."""
         return self._table("pvalues.csv", a="text", b="text", n_a="int", n_b="int", u="float", p="float",
                            p_holm="float", a12="float")  # fmt: skip
+
+    @property
+    def planned(self) -> Table:
+        """A row a comparison of pools (pools.csv): the same, a12_low, a12_high."""
+        return self._table("pools.csv", a="text", b="text", n_a="int", n_b="int", u="float", p="float",
+                           p_holm="float", a12="float", a12_low="float", a12_high="float")  # fmt: skip
 
     @property
     def matrix(self) -> Table:
@@ -212,7 +232,8 @@ class Report:
 
     @property
     def labels(self) -> dict[str, str]:
-        """The label of each treatment, in the order of figures, the source's first; the name of each knowledge base.
+        """The label of each treatment, in the order of figures, the source's first, and pool; the name of each knowledge
+        base.
 
         Where summary.json is missing, the names of treatments serve as labels, in the order of final.csv.
         """
@@ -221,6 +242,8 @@ class Report:
         try:
             summary = self.summary
             labels = {entry["treatment"]: entry["label"] for entry in summary["treatments"]}
+            for entry in summary.get("pools", []):
+                labels.setdefault(entry["pool"], entry["label"])
             for entry in summary.get("knowledge", []):
                 labels.setdefault(entry["knowledge"], entry["knowledge"])
         except (KeyError, TypeError, AttributeError) as error:
