@@ -87,38 +87,39 @@ LORE_INLINE bool keys_are_near(Key const& a, Key const& b, int most_differing, s
 LORE_INLINE int near_keys(Key const* keys, std::int32_t const* numbers, int count, Key const& key, int most_differing,
                           std::int32_t largest, std::int32_t* out) {
     int found = 0, i = 0;
-    // Several keys at once. Too many differing ones become a term that no bound allows.
+    // Several keys at once.
     std::int64_t wanted_bits;
     std::memcpy(&wanted_bits, &key, sizeof wanted_bits);
-    constexpr std::int64_t sums_bits = 0x00ffffffffffffff;   // Key::sums; Key::ones above them
     Key const most{{255, 255, 255, 255, 255, 255, 255},
                    static_cast<std::uint8_t>(most_differing < 255 ? most_differing : 255)};
     std::int64_t allowed_bits;
     std::memcpy(&allowed_bits, &most, sizeof allowed_bits);
 #if defined(__AVX512BW__) && defined(__AVX512VL__) && defined(__BMI2__)
+    // Differences of 127 and more count as 127, so that their squares fit; that only lets a key pass that is far.
+    constexpr std::int64_t most_squared = 0x007f7f7f7f7f7f7f;
     __m512i const wanted = _mm512_set1_epi64(wanted_bits);
-    __m512i const sums = _mm512_set1_epi64(sums_bits);
     __m512i const allowed = _mm512_set1_epi64(allowed_bits);
-    __m512i const bound = _mm512_set1_epi32(largest);
+    __m512i const limits = _mm512_set1_epi64(most_squared);
+    __m512i const one_each = _mm512_set1_epi16(1);
+    __m512i const bound = _mm512_set1_epi64((std::int64_t{largest} << 32) | 0xffffffff);
     for (; i < count; i += 8) {
         auto const there = static_cast<__mmask8>(count - i >= 8 ? 0xff : (1 << (count - i)) - 1);
         __m512i const eight = _mm512_maskz_loadu_epi64(there, keys + i);
         __m512i const difference = _mm512_or_si512(_mm512_subs_epu8(eight, wanted), _mm512_subs_epu8(wanted, eight));
-        __m512i const excess = _mm512_subs_epu8(difference, allowed);
-        __m512i const terms = _mm512_and_si512(difference, sums);
-        __m512i const even = _mm512_unpacklo_epi8(terms, excess), odd = _mm512_unpackhi_epi8(terms, excess);
-        __m512i const a = _mm512_madd_epi16(even, even), b = _mm512_madd_epi16(odd, odd);
-        __m512i pairs =
-            _mm512_add_epi32(_mm512_maskz_unpacklo_epi64(0xff, a, b), _mm512_maskz_unpackhi_epi64(0xff, a, b));
-        pairs = _mm512_add_epi32(pairs, _mm512_maskz_shuffle_epi32(0xffff, pairs, _MM_PERM_CDAB));
-        auto const near = static_cast<__mmask8>(_pext_u32(_mm512_cmple_epi32_mask(pairs, bound), 0x5555u) & there);
+        // Key::ones is the highest byte, and decides.
+        __mmask8 const alike = _mm512_mask_cmple_epu64_mask(there, difference, allowed);
+        __m512i const squared = _mm512_min_epu8(difference, limits);
+        __m512i terms = _mm512_madd_epi16(_mm512_maddubs_epi16(squared, squared), one_each);
+        terms = _mm512_add_epi32(terms, _mm512_maskz_shuffle_epi32(0xffff, terms, _MM_PERM_CDAB));
+        __mmask8 const near = _mm512_mask_cmple_epu64_mask(alike, terms, bound);   // the higher halves decide
         __m256i const their_numbers = _mm256_maskz_loadu_epi32(there, numbers + i);
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + found), _mm256_maskz_compress_epi32(near, their_numbers));
         found += __builtin_popcount(near);
     }
 #elif defined(__SSE2__)
+    constexpr std::int64_t sums_bits = 0x00ffffffffffffff;   // Key::sums; Key::ones above them
     __m128i const wanted = _mm_set1_epi64x(wanted_bits);
-    __m128i const sums = _mm_set1_epi64x(sums_bits);
+    __m128i const sums = _mm_set1_epi64x(sums_bits);   // too many differing ones become a term that no bound allows
     __m128i const allowed = _mm_set1_epi64x(allowed_bits);
     __m128i const bound = _mm_set1_epi32(largest);
     for (; i + 2 <= count; i += 2) {
