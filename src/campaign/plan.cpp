@@ -194,7 +194,7 @@ NameList read_order(TomlTable const& table, NameList const& treatments) {
     return *std::move(order);
 }
 
-NameList read_compared(TomlTable const& table, CampaignPlan const& plan) {
+NameList read_shown(TomlTable const& table, CampaignPlan const& plan) {
     NameList known = plan.report_order;
     for (PoolPlan const& pool : plan.pools) known.push_back(pool.name);
     NameList const names = table.strings("figure3").value_or(NameList{});
@@ -214,7 +214,7 @@ NameList read_compared(TomlTable const& table, CampaignPlan const& plan) {
 FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
     NameList const bases = names_of(plan.knowledge);
     FigurePlan figures;
-    figures.figure3 = read_compared(table, plan);
+    figures.figure3 = read_shown(table, plan);
     figures.trajectory = table.string("trajectory").value_or("");
     figures.figure5 = table.strings("figure5").value_or(NameList{});
     figures.figure6 = table.strings("figure6").value_or(NameList{});
