@@ -56,7 +56,9 @@ TEST(Signals, that_make_mpirun_kill_its_ranks_leave_a_checkpoint) {
     std::string const config = small_config(scratch, endless);
     for (int const number : {SIGTERM, SIGINT}) {
         std::string const directory = scratch.file(std::to_string(number));
-        Command command{scratch, on_ranks(2) + evolve(config, directory)};
+        // Open MPI's second is not enough for a checkpoint on every busy machine.
+        Command command{scratch, std::vector<std::string>{"OMPI_MCA_odls_base_sigkill_timeout=3"} + on_ranks(2) +
+                                     evolve(config, directory)};
         ASSERT_TRUE(command.wait_until([&] { return has_generations(directory); })) << command.err();
         command.signal(number);
         int const code = command.wait();
