@@ -38,9 +38,7 @@ std::string text(FailureRecord const& failure) {
 /// A finished run of a target task of which the plan asks for more generations goes on; of a source task it does not,
 /// because bases may have been built from it as it is.
 bool goes_on(CampaignPlan const& plan, Treatment const& treatment, ExperimentConfig const& made, int generations) {
-    bool const is_target = std::any_of(plan.targets.begin(), plan.targets.end(),
-                                       [&](Treatment const& target) { return target.name == treatment.name; });
-    return is_target && generations > made.evolution.generations;
+    return !plan.is_source(treatment.name) && generations > made.evolution.generations;
 }
 
 /// Settings of a finished run that differ from the plan and change its results; its length is one unless it goes on.

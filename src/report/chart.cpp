@@ -63,16 +63,19 @@ struct Curve {
     double end() const { return rows.back()->generation; }
 };
 
+/// A treatment, or the first of a pool: the others have its target task and its reward's unit.
+std::string const& first_treatment(CampaignPlan const& plan, std::string const& name) {
+    PoolPlan const* const pool = plan.pool(name);
+    return pool == nullptr ? name : pool->treatments.front();
+}
+
 /// Names of treatments and pools, the treatments being of those of the plan's order.
 std::vector<std::string> shown_names(CampaignPlan const& plan) {
     if (plan.figures.figure3.empty()) return plan.report_order;
     std::vector<std::string> names = plan.figures.figure3;
-    auto const is_there = [&](std::string const& treatment) {
-        return std::find(plan.report_order.begin(), plan.report_order.end(), treatment) != plan.report_order.end();
-    };
     std::erase_if(names, [&](std::string const& name) {
-        PoolPlan const* const pool = plan.pool(name);
-        return !is_there(pool == nullptr ? name : pool->treatments.front());
+        std::vector<std::string> const& there = plan.report_order;
+        return std::find(there.begin(), there.end(), first_treatment(plan, name)) == there.end();
     });
     return names;
 }
@@ -89,9 +92,7 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     std::vector<Curve> curves;
     std::string const unit = results.reward_unit(plan);
     auto const add = [&](std::string const& name, std::string const& label, std::string_view color, bool dashed) {
-        PoolPlan const* const pool = plan.pool(name);
-        if (results.unit_of(pool == nullptr ? name : pool->treatments.front()).value_or(unit) != unit)
-            return;   // another axis
+        if (results.unit_of(first_treatment(plan, name)).value_or(unit) != unit) return;   // another axis
         Curve curve{label, color, dashed, {}};
         for (CurveRow const& row : results.curves)
             if (row.treatment == name && row.generation <= last) curve.rows.push_back(&row);

@@ -298,7 +298,7 @@ class Figures(LoreTest):
 
     def test_figures_show_the_pools_that_the_report_shows(self) -> None:
         report = lore.Report(PAPER.parent / "all_bases")
-        self.assertIn("all", report.figure3)
+        self.assertEqual(["none", "untrained", "permuted", "policies", "chosen", "all"], report.shown())
         lines = {line.get_label(): line for line in plot.figure3(report).axes[0].lines}
         self.assertIn("ten bases (n = 40)", lines)
         self.assertEqual(6, sum("n = 40" in label for label in lines))

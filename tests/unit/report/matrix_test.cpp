@@ -5,6 +5,7 @@
 
 #include "campaign/campaign_fixture.h"
 #include "support/c_worlds.h"
+#include "support/complaint.h"
 
 #include <gmock/gmock.h>
 
@@ -182,4 +183,25 @@ TEST_F(MatrixReport, can_be_made_again_from_its_tables_where_a_world_is_not_at_h
     write_report(plan(), directory("kept"), directory("again"));
     for (char const* name : {"report.html", "matrix.csv", "summary.json", "figures/matrix.svg"})
         EXPECT_EQ(made(name), made(name, "again")) << name;
+}
+
+TEST_F(MatrixReport, shows_a_pool_in_the_figures_of_its_task_alone) {
+    write("pole.toml", "name = \"pole\"\n[world]\nlibrary = \"" + test::c_world("pendulum") + "\"\n");
+    auto const pools = [&](std::string const& with) {
+        return "title = \"Two worlds\"\nruns = 2\ngenerations = 20\n"
+               "[[source]]\nname = \"arena\"\nconfig = \"source.toml\"\n"
+               "[[target]]\nname = \"arena\"\nconfig = \"target.toml\"\n"
+               "[[target]]\nname = \"pole\"\nconfig = \"pole.toml\"\n"
+               "[transfer]\nmethod = \"shaping\"\n[report]\nfigure3 = [\"both\", \"pole_from_none\"]\n"
+               "[[pool]]\nname = \"both\"\nlabel = \"all in the arena\"\ntreatments = [\"arena_from_none\", \"" +
+               with + "\"]\n";
+    };
+    write("campaign.toml", pools("arena_from_arena"));
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_THAT(made("figures/figure3_arena.svg"), HasSubstr("all in the arena (n = 4)"));
+    EXPECT_EQ(made("figures/figure3_pole.svg").find("all in the arena"), std::string::npos);
+    EXPECT_THAT(made("figures/figure3_pole.svg"), HasSubstr("(n = 2)"));
+    write("campaign.toml", pools("pole_from_none"));
+    EXPECT_THAT(test::complaint_of<UsageError>([&] { plan(); }), HasSubstr("treatments of several target tasks"));
 }

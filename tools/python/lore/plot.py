@@ -44,7 +44,7 @@ def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     treatments whose reward has another unit than the first target task's are left out.
     """
     report = _report(report)
-    curves, treatments, names = report.curves, _targets(report, task), report.labels
+    curves, treatments, names = report.curves, report.shown(task), report.labels
     target_rows = curves["generation"][np.isin(curves["treatment"], treatments)]
     last = target_rows.max() if len(target_rows) else np.inf  # source runs may be longer
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
@@ -81,14 +81,13 @@ def _reward(report: Report, task: str | None) -> str:
 
 
 def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
-    """A boxplot a target treatment or pool at the last generation, every run a point; brackets over pairs with p < 0.01 (*)
-    and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper. `task`: as of figure3."""
+    """A boxplot a target treatment or pool at the last generation, every run a point; brackets over pairs with p < 0.01
+    (*) and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper. `task`: as of figure3."""
     report = _report(report)
     final = report.final
-    members = report.pools
     of_all = {
-        name: final[report.reward_word][np.isin(final["treatment"], members.get(name, [name]))]
-        for name in _targets(report, task)
+        name: final[report.reward_word][np.isin(final["treatment"], report.members(name))]
+        for name in report.shown(task)
     }
     treatments = [name for name, of_one in of_all.items() if len(of_one)]
     rewards = [of_all[name] for name in treatments]
@@ -164,23 +163,11 @@ def _report(report: Report | FilePath) -> Report:
     return report if isinstance(report, Report) else Report(report)
 
 
-def _targets(report: Report, task: str | None) -> list[str]:
-    """What figures 3 and 4 show of one target task or of all: treatments in the order of figures, or the report's figure3."""
-    if report.figure3:
-        members = {name: report.pools.get(name, [name])[0] for name in report.figure3}
-        return [name for name in report.figure3 if task is None or members[name] in report.tasks[task]]
-    there = dict.fromkeys(report.final["treatment"].tolist())
-    ordered = [name for name in report.labels if name in there]
-    shown = report.tasks[task] if task is not None else [name for name in there if name not in report.sources]
-    return [name for name in dict.fromkeys([*ordered, *there]) if name in shown]
-
-
 def _has_unit(report: Report, treatment: str) -> bool:
     """Whether its rewards have the unit of the (first) target task: others share no axis with them."""
     if report.reward_word == "balls":
         return True
-    member = report.pools.get(treatment, [treatment])[0]
-    return set(report.final.where(treatment=member)["unit"].tolist()) <= {report.reward_unit}
+    return set(report.final.where(treatment=report.members(treatment)[0])["unit"].tolist()) <= {report.reward_unit}
 
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:

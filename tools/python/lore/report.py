@@ -129,12 +129,18 @@ class Report:
             return {}
         return {str(entry["pool"]): entry["treatments"] for entry in self.summary.get("pools", [])}
 
-    @property
-    def figure3(self) -> list[str]:
-        """Names of the treatments and pools that figures 3 and 4 show; empty: of all treatments of target tasks."""
-        if not os.path.exists(self._file("summary.json")):
-            return []
-        return [str(name) for name in self.summary.get("figure3", [])]
+    def members(self, name: str) -> list[str]:
+        """The treatments of a pool; of a treatment itself."""
+        return self.pools.get(name, [name])
+
+    def shown(self, task: str | None = None) -> list[str]:
+        """The names of treatments and pools that figures 3 and 4 show, of one of `tasks` or of all."""
+        there = dict.fromkeys(self.final["treatment"].tolist())
+        names = [str(name) for name in self.summary.get("figure3", [])] if os.path.exists(self._file("summary.json")) else []
+        if not names:
+            names = list(dict.fromkeys([*(name for name in self.labels if name in there), *there]))
+        targets = self.tasks[task] if task is not None else [name for name in there if name not in self.sources]
+        return [name for name in names if any(member in targets for member in self.members(name))]
 
     @property
     def runs(self) -> Table:
@@ -144,7 +150,8 @@ class Report:
 
     @property
     def curves(self) -> Table:
-        """treatment (or a pool of figure3), generation, runs, mean of the best-of-runs [reward unit], low, high (95 % bootstrap band)."""
+        """treatment (or a pool that figure 3 shows), generation, runs, mean of the best-of-runs [reward unit], low, high
+        (95 % bootstrap band)."""
         return self._table("curves.csv", treatment="text", generation="int", runs="int", mean="float", low="float",
                            high="float")  # fmt: skip
 
