@@ -81,17 +81,31 @@ bool Scheduler::done_on_disk(Step const& step) {
 }
 
 void Scheduler::start_ready() {
+    std::vector<Blocked> blocked;
     for (Task& task : tasks_) {
-        if (count(tasks_, Phase::working) >= options_.jobs) return;
+        if (count(tasks_, Phase::working) >= options_.jobs) break;
         if (task.phase != Phase::waiting && task.phase != Phase::elsewhere) continue;
         std::string missing;
         Readiness const ready = readiness(task, missing);
         if (ready == Readiness::never) {
             task.phase = Phase::blocked;
-            board_.complain(fmt::format("{} cannot be done: it waits for {}", task.step.name, missing));
+            if (blocked.empty() || blocked.back().first->group != task.step.group || blocked.back().missing != missing)
+                blocked.push_back({&task.step, &task.step, missing});
+            blocked.back().last = &task.step;
         }
         if (ready == Readiness::ready) start(task);
     }
+    for (Blocked const& steps : blocked) complain_of(steps);
+}
+
+/// One line for all runs of a treatment: there may be hundreds.
+void Scheduler::complain_of(Blocked const& steps) {
+    bool const one = steps.first == steps.last;
+    bool const ours =
+        std::any_of(tasks_.begin(), tasks_.end(), [&](Task const& task) { return task.step.name == steps.missing; });
+    board_.complain(fmt::format("{}{} cannot be done: {} for {}{}", steps.first->name,
+                                one ? "" : " to " + steps.last->name, one ? "it waits" : "they wait", steps.missing,
+                                ours ? "" : ", which is not done and not among the steps named by --only"));
 }
 
 void Scheduler::start(Task& task) {

@@ -34,11 +34,18 @@ public:
 
 private:
     enum class Readiness : std::uint8_t { ready, later, never };
+    /// Steps of one group, from the first to the last, that can never start, all because of the step `missing`.
+    struct Blocked {
+        Step const* first;
+        Step const* last;
+        std::string missing;
+    };
 
     void settle_from_disk(Task&, bool fresh);
     Readiness readiness(Task const&, std::string& missing);
     Readiness readiness(Task const&, Step const& needed);
     bool done_on_disk(Step const&);
+    void complain_of(Blocked const&);
     void start(Task&);
     void launch(Task&);
     void choose(Task&);

@@ -22,7 +22,7 @@ enum class Phase : std::uint8_t {
     elsewhere,   ///< another lore-campaign is at it
     done,
     failed,
-    blocked   ///< waits for a step that has failed
+    blocked   ///< waits for a step that has failed, or that is missing and not ours to do
 };
 
 /// A step of the campaign, and how far this session has brought it.

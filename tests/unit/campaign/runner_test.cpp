@@ -123,7 +123,8 @@ TEST_F(Runner, says_what_cannot_be_done_when_its_knowledge_base_fails) {
     ::setenv("LORE_FAKE_FAIL", "archive:1:9,archive:2:9,archive:3:9,archive:4:9", 1);
     testing::internal::CaptureStderr();
     EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("all/001 cannot be done: it waits for knowledge/kb1_all"),
+    EXPECT_NE(testing::internal::GetCapturedStderr().find(
+                  "all/001 to all/003 cannot be done: they wait for knowledge/kb1_all\n"),
               std::string::npos);
     EXPECT_EQ(state("kb1/003").status, StepStatus::done);
     EXPECT_EQ(state("all/001").status, StepStatus::missing);
@@ -138,6 +139,19 @@ TEST_F(Runner, works_only_on_the_steps_it_is_told) {
     EXPECT_EQ(state("source/001").status, StepStatus::missing);
     only.only = {"nine"};
     EXPECT_THROW(run_campaign(plan(), directory(), only), UsageError);
+}
+
+TEST_F(Runner, says_once_a_treatment_that_its_steps_wait_for_what_it_is_not_told_to_do) {
+    RunnerOptions only = options();
+    only.only = {"kb1", "all/002"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::failure);
+    EXPECT_EQ(
+        testing::internal::GetCapturedStderr(),
+        "kb1/001 to kb1/003 cannot be done: they wait for knowledge/kb1, which is not done and not among the steps "
+        "named by --only\n"
+        "all/002 cannot be done: it waits for knowledge/kb1_all, which is not done and not among the steps named by "
+        "--only\n");
 }
 
 TEST_F(Runner, stops_at_a_checkpoint_when_asked_and_ends_with_the_same_files_when_called_again) {
