@@ -89,9 +89,7 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Channe
         if (bases[k].size() == 0)
             throw UsageError(fmt::format("cannot use {}", paths[k]), "the knowledge base is empty",
                              "Give another one.");
-        if (std::string const why = why_misfit(bases[k].config().channels, channels); !why.empty())
-            throw UsageError(fmt::format("cannot use {}", paths[k]), why,
-                             "Give a base of a world with these channels.");
+        require_channels(bases[k], paths[k], channels);
         if (k == 0) config = bases[k].config();
         shapers.emplace_back(std::move(bases[k]));
     }

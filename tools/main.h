@@ -1,11 +1,13 @@
 #pragma once
 
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/core/standard_streams.h>
 
 #include <fmt/format.h>
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
@@ -36,6 +38,9 @@ int run_program(std::string_view name, Run&& run) {
         return lost.empty() ? code : complain(name, lost, ExitCode::failure);
     } catch (Error const& error) {
         return complain(name, error.what(), error.exit_code());
+    } catch (std::filesystem::filesystem_error const& error) {
+        // Of a question that throws only where it cannot be answered, such as whether a file is there.
+        return complain(name, file_error("look at", error.path1(), error.code().value()).what(), ExitCode::failure);
     } catch (std::bad_alloc const&) {
         return complain(name, "out of memory", ExitCode::failure);
     } catch (std::exception const& error) {

@@ -147,6 +147,8 @@ void write_checkpoint(std::string const& path, std::string const& older, Checkpo
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older) {
     try {
         return {unpack_checkpoint(read_container(path, FileKind::checkpoint), path), ""};
+    } catch (NewerFormat const&) {
+        throw;   // no damage: going on from the older one would throw the newer Lore's work away
     } catch (Error const& newer_fails) {
         FoundCheckpoint found;
         try {

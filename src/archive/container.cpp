@@ -72,9 +72,10 @@ Header header_of(std::span<std::byte const> file, std::string_view name) {
         refuse(name, "it was written on a machine of the other byte order", "Export it there as CSV or NPY.");
     if (header.byte_order != byte_order_mark) refuse(name, "its header was changed", renew);
     if (header.version > container_version)
-        refuse(name,
-               fmt::format("written by a newer Lore: format {}, this one reads {}", header.version, container_version),
-               "Update Lore.");
+        throw NewerFormat(
+            fmt::format("cannot read {}", name),
+            fmt::format("written by a newer Lore: format {}, this one reads {}", header.version, container_version),
+            "Update Lore.");
     if (header.version == 0) refuse(name, "its header was changed", renew);
     return header;
 }

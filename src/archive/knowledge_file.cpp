@@ -387,4 +387,9 @@ std::vector<KnowledgeBase> read_knowledge_bases(std::vector<std::string> const& 
     return bases;
 }
 
+void require_channels(KnowledgeBase const& base, std::string const& path, Channels const& channels) {
+    if (std::string const why = why_misfit(base.config().channels, channels); !why.empty())
+        throw UsageError(fmt::format("cannot use {}", path), why, "Give a base of a world with these channels.");
+}
+
 }   // namespace lore

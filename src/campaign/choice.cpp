@@ -48,6 +48,18 @@ bool Choice::covers(CampaignPlan const& plan) const {
     });
 }
 
+ChosenRun const* Choice::outdated(CampaignPlan const& plan) const {
+    for (KnowledgePlan const& wish : plan.knowledge) {
+        ChosenRun const* const entry = wish.kind == KnowledgeKind::lineage ? find(wish.name) : nullptr;
+        if (entry == nullptr) continue;
+        bool const as_wished =
+            wish.run != 0 ? entry->run == wish.run
+                          : entry->best == wish.best_run && (wish.best_run || entry->wished == wish.wished_reward);
+        if (!as_wished) return entry;
+    }
+    return nullptr;
+}
+
 Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finished, std::vector<int> without,
                    Choice const& before) {
     Choice choice;

@@ -95,7 +95,10 @@ void read_reduction(TomlTable const& table, KnowledgePlan& plan) {
     using Real = std::numeric_limits<double>;
     if (how == "least_value") reduce_by("--min-value", *table.number(how, Real::lowest(), Real::max()));
     if (how == "least_count") reduce_by("--min-count", *table.integer(how, 1, 100'000'000));
-    if (how == "consensus") plan.consensus = *table.strings("consensus");
+    if (how != "consensus") return;
+    plan.consensus = *table.strings("consensus");
+    if (plan.consensus.empty())
+        table.fail("consensus", "it names no base", "Name at least one that must have the features, too.");
 }
 
 // ---- what each kind waits for ----

@@ -194,6 +194,12 @@ NameList read_order(TomlTable const& table, NameList const& treatments) {
     return *std::move(order);
 }
 
+void refuse_twice(TomlTable const& table, std::string_view key, NameList const& names) {
+    for (std::string const& name : names)
+        if (std::count(names.begin(), names.end(), name) > 1)
+            table.fail(key, fmt::format("it names '{}' twice", name), "Name each once.");
+}
+
 NameList read_shown(TomlTable const& table, CampaignPlan const& plan) {
     NameList known = plan.report_order;
     for (PoolPlan const& pool : plan.pools) known.push_back(pool.name);
@@ -205,9 +211,8 @@ NameList read_shown(TomlTable const& table, CampaignPlan const& plan) {
                 if (plan.treatment(treatment).target != plan.treatment(pool->treatments.front()).target)
                     table.fail("figure3", fmt::format("'{}' pools treatments of several target tasks", name),
                                "Name pools of one task, or treatments.");
-        if (std::count(names.begin(), names.end(), name) > 1)
-            table.fail("figure3", fmt::format("it names '{}' twice", name), "Name each once.");
     }
+    refuse_twice(table, "figure3", names);
     return names;
 }
 
@@ -225,6 +230,7 @@ FigurePlan read_figures(TomlTable const& table, CampaignPlan const& plan) {
     }
     for (std::string const& name : figures.figure5) require_known(table, "figure5", name, bases);
     for (std::string const& name : figures.figure6) require_known(table, "figure6", name, bases);
+    refuse_twice(table, "figure5", figures.figure5);
     return figures;
 }
 

@@ -3,6 +3,7 @@
 #include <lore/archive/atomic_file.h>
 #include <lore/core/csv.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/core/input_file.h>
 #include <lore/knowledge/window.h>
 #include <lore/world/reward_text.h>
@@ -208,7 +209,7 @@ void write_replays(CampaignDirectory const& directory, Replays const& all) {
 Replays read_scenes(CampaignDirectory const& directory) {
     std::string const path = directory.file("scene.json");
     Replays all;
-    if (!std::filesystem::exists(path)) return all;
+    if (!is_there(path)) return all;
     try {
         Json const document = Json::parse(read_text(path));
         for (Json const& entry : document.at("replays")) all.replays.push_back(replay_of(entry));

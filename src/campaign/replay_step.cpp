@@ -5,6 +5,7 @@
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/episode/episode.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/run_directory.h>
@@ -63,7 +64,7 @@ std::vector<std::string> best_target_runs(CampaignPlan const& plan, CampaignDire
 
 /// Panels that can be drawn: of the knowledge bases that are there.
 std::vector<PanelValues> panels_to_draw(CampaignPlan const& plan, CampaignDirectory const& directory) {
-    auto const built = [&](std::string const& name) { return fs::exists(directory.knowledge(name)); };
+    auto const built = [&](std::string const& name) { return is_there(directory.knowledge(name)); };
     auto const panel = [&](std::string const& figure, std::vector<std::string> const& names) {
         std::vector<std::string> checksums;
         for (std::string const& name : names)
@@ -113,6 +114,7 @@ void fill_in(PanelValues& panel, std::vector<std::string> const& bases, Campaign
     std::vector<FoundValues> values;
     for (std::string const& name : bases) {
         Shaper const shaper{read_knowledge_base(directory.knowledge(name))};
+        require_channels(shaper.base(), directory.knowledge(name), trace.channels);
         int const length = shaper.base().config().window_length;
         if (panel.window_length > 0 && length != panel.window_length)
             throw Error("cannot multiply the values of figure 6", fmt::format("{} has another window length", name),
@@ -137,7 +139,7 @@ std::optional<std::string> replay_is_due(CampaignPlan const& plan, CampaignDirec
     std::string const source = source_run(plan, from);
     if (source.empty()) return std::nullopt;
     for (char const* const file : {"replay.csv", "values.csv", "scene.json"})
-        if (!fs::exists(into.file(file))) return "not made yet";
+        if (!is_there(into.file(file))) return "not made yet";
     Replays made;
     try {
         made = read_scenes(into);

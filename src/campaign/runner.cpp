@@ -8,6 +8,7 @@
 #include <lore/core/file.h>
 
 #include <chrono>
+#include <cstdlib>
 
 namespace lore {
 
@@ -78,6 +79,9 @@ ExitCode outcome(std::vector<Task> const& tasks) {
 
 ExitCode run_campaign(CampaignPlan const& plan, CampaignDirectory const& directory, RunnerOptions const& options) {
     make_directory(directory.path());
+    // In an allocation of several tasks a run of one rank is no launch that went wrong, though it is alone.
+    if (options.launcher.ranks == 1)
+        for (char const* const tasks : {"SLURM_NTASKS", "SLURM_STEP_NUM_TASKS"}) ::unsetenv(tasks);
     StopSignals const signals;
     Board board{options.quiet};
     Scheduler scheduler{plan, directory, options, board};

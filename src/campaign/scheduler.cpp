@@ -63,10 +63,17 @@ Scheduler::Readiness Scheduler::readiness(Task const& task, std::string& missing
 
 /// The same as far as one of the steps that it waits for is concerned.
 Scheduler::Readiness Scheduler::readiness(Task const& task, Step const& needed) {
-    bool const can_do_without = task.step.takes_what_is_there;
+    // Runs that failed are done without, but pictures show runs that were chosen.
+    bool const can_do_without = task.step.takes_what_is_there && needed.kind != StepKind::choose;
     auto const ours =
         std::find_if(tasks_.begin(), tasks_.end(), [&](Task const& t) { return t.step.name == needed.name; });
-    if (ours == tasks_.end()) return can_do_without || done_on_disk(needed) ? Readiness::ready : Readiness::never;
+    if (ours == tasks_.end()) {
+        if (done_on_disk(needed)) return Readiness::ready;
+        // What is chosen stays chosen: not before every source run has ended, wherever it runs.
+        bool const ended =
+            task.step.kind != StepKind::choose || state_of(plan_, directory_, needed).status == StepStatus::failed;
+        return can_do_without && ended ? Readiness::ready : Readiness::never;
+    }
     if (ours->phase == Phase::done) return Readiness::ready;
     if (ours->phase == Phase::failed || ours->phase == Phase::blocked)
         return can_do_without ? Readiness::ready : Readiness::never;
@@ -168,8 +175,10 @@ void Scheduler::choose(Task& task) {
             board_.announce(fmt::format("{} comes from {} run {} (seed {}, {})", chosen.knowledge, source.name,
                                         chosen.run, chosen.seed, reward_text(chosen.reward, unit)));
         task.phase = Phase::done;
+        clear_failure(directory_, task.step);
     } catch (Error const& error) {
         task.phase = Phase::failed;
+        write_failure(directory_, task.step, {1, error.what(), {}});
         board_.complain(fmt::format("{} failed: {}", task.step.name, error.what()));
     }
     task.lock.reset();

@@ -5,6 +5,7 @@
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/input_file.h>
+#include <lore/core/standard_streams.h>
 
 #include <algorithm>
 #include <array>
@@ -51,7 +52,7 @@ std::string as_pattern(std::string const& path) {
     return pattern;
 }
 
-/// Runs a command and returns what it printed; stderr comes along where it fails.
+/// Runs a command and returns what it printed, to stderr too.
 std::string output_of(std::vector<std::string> const& command) {
     std::string const line = shell_text(command) + " 2>&1";
     FILE* const pipe = ::popen(line.c_str(), "r");
@@ -67,6 +68,22 @@ std::string output_of(std::vector<std::string> const& command) {
                     WEXITSTATUS(status) == 127 ? "Call it where Slurm's programs are, or use 'lore-campaign run'."
                                                : "Mend that and submit again.");
     return text;
+}
+
+/// The id of a submitted job, "id" or "id;cluster". sbatch may say more, such as warnings of a site's plugins; that is
+/// passed on.
+std::string job_id(std::string const& said) {
+    static std::regex const form{R"((\d+)(;.*)?)"};
+    std::istringstream lines{said};
+    std::string id;
+    std::smatch parts;
+    for (std::string line; std::getline(lines, line);)
+        if (std::regex_match(line, parts, form)) id = parts[1];
+        else write_stderr(line + "\n");
+    if (id.empty())
+        throw Error("cannot tell which job was submitted", fmt::format("sbatch printed no job id, but '{}'", said),
+                    "Look at 'squeue --me', and cancel what is there.");
+    return id;
 }
 
 /// Slurm's forms of a time: minutes, minutes:seconds, hours:minutes:seconds, days-hours, days-hours:minutes,
@@ -170,7 +187,7 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
                                          Launcher const& launcher, std::string const& program, bool only_write) {
     check_times(plan.cluster);
     std::string const record = directory.file("slurm/jobs.txt");
-    if (!only_write && fs::exists(record)) {
+    if (!only_write && is_there(record)) {
         std::istringstream file{read_text(record)};
         std::vector<std::string> ids;
         for (std::string id, group; file >> id >> group;) ids.push_back(id);
@@ -210,8 +227,7 @@ std::vector<std::string> submit_campaign(CampaignPlan const& plan, CampaignDirec
             command.insert(command.end(),
                            {fmt::format("--dependency={}", fmt::join(conditions, ",")), "--kill-on-invalid-dep=yes"});
         command.push_back(job.script);
-        std::string id = output_of(command);
-        id = id.substr(0, id.find(';'));   // "id;cluster" where there are several clusters
+        std::string const id = job_id(output_of(command));
         id_of_group[job.group] = id;
         lines.push_back(fmt::format("{} {}{}", id, job.group,
                                     job.tasks.empty() ? "" : fmt::format(" ({} tasks)", job.tasks.size())));

@@ -7,6 +7,7 @@
 #include <lore/campaign/choice.h>
 #include <lore/campaign/replay_step.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/core/input_file.h>
 #include <lore/core/names.h>
 #include <lore/core/whole_number.h>
@@ -81,26 +82,29 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     // A finished run is done even if its lock is held: a child that was just forked holds all locks until it becomes
     // its program.
     std::optional<Manifest> manifest;
-    if (fs::exists(in(run, run_file::manifest))) {
-        try {
-            manifest = read_manifest(in(run, run_file::manifest));
-        } catch (Error const& error) { return say(StepStatus::failed, error.what()); }
-    }
+    std::optional<ExperimentConfig> config;   // of a finished run
+    try {
+        if (is_there(in(run, run_file::manifest))) manifest = read_manifest(in(run, run_file::manifest));
+        if (manifest && manifest->status == RunStatus::done) config = read_config(in(run, run_file::config));
+    } catch (Error const& error) { return say(StepStatus::failed, error.what()); }
     if (manifest) state.reward_unit = unit_of(*manifest);
-    if (manifest && manifest->status == RunStatus::done) {
+    if (config) {
         if (seed && manifest->seed != *seed)
             return say(StepStatus::failed,
                        fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
-        ExperimentConfig const made = read_config(in(run, run_file::config));
-        bool const longer = goes_on(plan, treatment, made, state.generations);
-        if (auto const others = other_settings(plan, treatment, made, longer); !others.empty())
+        bool const longer = goes_on(plan, treatment, *config, state.generations);
+        if (auto const others = other_settings(plan, treatment, *config, longer); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
         auto const choice = treatment.policy_of.empty() ? std::nullopt : recorded_choices(plan, directory);
         CommandContext const context{plan, directory, choice ? &*choice : nullptr};
         if (auto const others = other_inputs(treatment, context, planned.founders_from, *manifest); !others.empty())
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
-        if (!fs::exists(in(run, run_file::lineage)))
+        if (!is_there(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
+        if (state.generation != manifest->generation)
+            return say(StepStatus::failed,
+                       fmt::format("its {} ends at generation {} of {}: move {} away, or bring the whole file back",
+                                   run_file::progress, state.generation, manifest->generation, run));
         if (!longer) return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));
     }
     if (taken) return say(StepStatus::running, where);
@@ -111,10 +115,10 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
 
 /// Whether the outcome of a step that is no run is on disk, `choice` that of a step that chooses; if not, `reason` may
 /// say why it is to be made again.
-bool is_there(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
-              std::optional<Choice> const& choice, std::string& reason) {
+bool has_outcome(CampaignPlan const& plan, CampaignDirectory const& directory, Step const& step,
+                 std::optional<Choice> const& choice, std::string& reason) {
     if (step.kind == StepKind::choose) return choice && choice->covers(plan);
-    if (step.kind == StepKind::build) return fs::exists(directory.knowledge(step.subject));
+    if (step.kind == StepKind::build) return is_there(directory.knowledge(step.subject));
     auto const due = replay_is_due(plan, directory, directory);
     if (due) reason = *due;
     return !due && can_replay(plan, directory);
@@ -128,7 +132,7 @@ std::string_view name(StepStatus status) {
 }
 
 std::optional<Choice> recorded_choice(CampaignDirectory const& directory, std::string const& source) {
-    if (!fs::exists(directory.choice(source))) return std::nullopt;
+    if (!is_there(directory.choice(source))) return std::nullopt;
     Choice choice = read_choice(directory.choice(source));
     choice.source = source;
     return choice;
@@ -159,20 +163,32 @@ StepState state_of(CampaignPlan const& plan, CampaignDirectory const& directory,
                                     origin ? std::optional{origin->seed} : std::nullopt, taken);
         if (state.status != StepStatus::done || origin == nullptr) return state;
         std::string const run = directory.run(step.name), source = directory.run(run_step(base.source, origin->run));
-        if (!fs::exists(in(run, run_file::all_individuals))) {
+        auto const fail = [&](std::string reason) {
             state.status = StepStatus::failed;
-            state.reason = fmt::format("there is no {}", in(run, run_file::all_individuals));
-        } else if (read_manifest(in(run, run_file::manifest)).signature !=
-                   read_manifest(in(source, run_file::manifest)).signature) {
-            state.status = StepStatus::failed;
-            state.reason = fmt::format("its signature is not that of {}: was Lore changed between them?", source);
-        }
+            state.reason = std::move(reason);
+        };
+        try {
+            std::string const original = in(source, run_file::manifest);   // not there while the source is made again
+            if (!is_there(in(run, run_file::all_individuals)))
+                fail(fmt::format("there is no {}", in(run, run_file::all_individuals)));
+            else if (is_there(original) &&
+                     read_manifest(in(run, run_file::manifest)).signature != read_manifest(original).signature)
+                fail(fmt::format("its signature is not that of {}: was Lore changed between them?", source));
+        } catch (Error const& error) { fail(error.what()); }
         return state;
     }
     StepState state;
     bool const chooses = step.kind == StepKind::choose;
     auto const choice = chooses ? recorded_choice(directory, step.subject) : std::nullopt;
-    if (is_there(plan, directory, step, choice, state.reason)) {
+    if (ChosenRun const* const old = choice ? choice->outdated(plan) : nullptr) {
+        state.status = StepStatus::failed;
+        state.reason =
+            fmt::format("'{}' comes from run {}, which is not what the campaign asks for now: move {} and the "
+                        "bases made from it away",
+                        old->knowledge, old->run, directory.choice(step.subject));
+        return state;
+    }
+    if (has_outcome(plan, directory, step, choice, state.reason)) {
         state.status = StepStatus::done;
         if (chooses) {
             std::vector<std::string> words;
@@ -217,7 +233,7 @@ void write_failure(CampaignDirectory const& directory, Step const& step, Failure
 
 std::optional<FailureRecord> read_failure(CampaignDirectory const& directory, Step const& step) {
     std::string const path = directory.record(step.name);
-    if (!fs::exists(path)) return std::nullopt;
+    if (!is_there(path)) return std::nullopt;
     std::string const text = read_text(path);
     try {
         auto const document = nlohmann::json::parse(text);

@@ -25,6 +25,7 @@ StopSignals::StopSignals() {
         action.sa_handler = signal == SIGCHLD ? wake_up : request_stop;
         ::sigaction(signal, &action, &former_[signal]);
     }
+    if (former_[SIGHUP].sa_handler == SIG_IGN) ::signal(SIGHUP, SIG_IGN);   // nohup
     ::sigprocmask(SIG_BLOCK, &ours, &former_mask_);
 }
 

@@ -26,7 +26,9 @@ std::string_view remedy_for(int error_number) {
     case EPERM:
     case EROFS: return "Choose a place where you may write, or change its permissions.";
     case ENOENT:
-    case ENOTDIR: return "Check the path.";
+    case ENOTDIR:
+    case ENAMETOOLONG:
+    case ELOOP: return "Check the path.";
     default: return "Check the disk.";
     }
 }
@@ -37,6 +39,13 @@ bool FileDescriptor::close() { return number_ < 0 || ::close(release()) == 0; }
 
 Error file_error(std::string_view verb, std::string const& path, int error_number) {
     return Error(fmt::format("cannot {} {}", verb, path), std::strerror(error_number), remedy_for(error_number));
+}
+
+bool is_there(std::string const& path) {
+    std::error_code failed;
+    bool const there = fs::exists(path, failed);
+    if (failed) throw file_error("look at", path, failed.value());
+    return there;
 }
 
 void make_directory(std::string const& path) {

@@ -42,7 +42,8 @@ std::vector<Comparison> compare_treatments(CampaignPlan const& plan, Results con
     for (std::size_t i = 0; i < plan.report_order.size(); ++i) {
         for (std::size_t j = i + 1; j < plan.report_order.size(); ++j) {
             std::string const &a = plan.report_order[i], &b = plan.report_order[j];
-            if (plan.treatment(a).target != plan.treatment(b).target) continue;
+            if (plan.treatment(a).target != plan.treatment(b).target || results.unit_of(a) != results.unit_of(b))
+                continue;
             auto const first = results.final_rewards(a), second = results.final_rewards(b);
             if (!first.empty() && !second.empty()) comparisons.push_back(compared(a, b, first, second));
         }

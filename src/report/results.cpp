@@ -4,6 +4,7 @@
 #include <lore/campaign/choice.h>
 #include <lore/campaign/finished_runs.h>
 #include <lore/campaign/state.h>
+#include <lore/core/file.h>
 #include <lore/core/whole_number.h>
 #include <lore/statistics/bootstrap.h>
 
@@ -166,7 +167,7 @@ std::vector<KnowledgeRow> knowledge_rows(CampaignPlan const& plan, CampaignDirec
     std::vector<KnowledgeRow> rows;
     for (KnowledgePlan const& planned : plan.knowledge) {
         ChosenRun const* const source = choice ? choice->find(origin_of(plan, planned).name) : nullptr;
-        if (source == nullptr || !fs::exists(directory.knowledge(planned.name))) continue;
+        if (source == nullptr || !is_there(directory.knowledge(planned.name))) continue;
         KnowledgeBase const base = read_knowledge_base(directory.knowledge(planned.name));
         KnowledgeRow row{planned.name,
                          base.provenance().kind,

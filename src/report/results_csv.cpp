@@ -3,6 +3,7 @@
 #include "csv_columns.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/core/file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -137,7 +138,7 @@ class Table {
 public:
     Table(CampaignDirectory const& directory, std::string_view name) {
         std::string const path = directory.file(name);
-        if (std::filesystem::exists(path)) table_.emplace(CsvTable::read(path, "Make it again from the runs."));
+        if (is_there(path)) table_.emplace(CsvTable::read(path, "Make it again from the runs."));
     }
     bool has(std::string_view column) const { return table_ && table_->has(column); }
     template <class Row>
@@ -199,7 +200,7 @@ void write_results(CampaignDirectory const& directory, Results const& results) {
 
 Results read_results(CampaignDirectory const& directory) {
     auto const table = [&](std::string_view name) { return Table{directory, name}; };
-    auto const there = [&](std::string_view name) { return std::filesystem::exists(directory.file(name)); };
+    auto const there = [&](std::string_view name) { return is_there(directory.file(name)); };
     auto const required = [&](std::string_view name) {
         return CsvTable::read(directory.file(name), "Make it again from the runs.");
     };

@@ -40,6 +40,7 @@ inline void write_small_run(std::string const& directory, std::uint64_t seed = 1
     write_lineage(file(run_file::lineage), end.population, world.record());
     Manifest manifest;
     manifest.status = RunStatus::done;
+    manifest.generation = end.population.generation;
     manifest.world = world.record();
     manifest.outputs.push_back(record_of("output", file(run_file::lineage), run_file::lineage));
     write_manifest(file(run_file::manifest), manifest);

@@ -145,6 +145,27 @@ TEST_F(Files, whose_names_are_wrong_end_every_program_with_exit_code_2) {
     }
 }
 
+TEST_F(Files, of_another_world_are_refused_before_anything_is_looked_up) {
+    shell("$evolve -q; $program " LORE_SOURCE_DIR
+          "/jobs/tasks/maze_medium.toml --set evolution.generations=0 --set evolution.population=4 --out maze -q; "
+          "$kb build maze --out maze.lorekb");
+    for (char const* const line :
+         {"$kb query maze.lorekb --run run --csv never", "$kb product maze.lorekb --run run --csv never",
+          "$play run --kb maze.lorekb --out never"}) {
+        test::Ran const ran = shell(line);
+        EXPECT_EQ(ran.exit_code, 2) << line;
+        EXPECT_THAT(ran.errors, ::testing::HasSubstr("cannot use maze.lorekb (")) << line;
+        EXPECT_FALSE(exists(scratch.file("never"))) << line;
+    }
+}
+
+TEST_F(Files, that_cannot_be_looked_at_are_named) {
+    test::Ran const ran = shell("$kb individuals " + std::string(300, 'x'));
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_EQ(ran.errors,
+              "lore-kb: cannot look at " + std::string(300, 'x') + " (File name too long). Check the path.\n");
+}
+
 TEST_F(Files, that_have_moved_are_read_where_they_are_now) {
     shell("mkdir -p jobs/tasks; cp small.toml jobs/tasks/mine.toml");
     test::Ran const ran = shell("$program jobs/mine.toml --out run -q");

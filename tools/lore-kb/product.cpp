@@ -23,7 +23,10 @@ void product(Program const& program, ProductOptions const& options) {
     check_writable(options.csv);
     Trace const trace = trace_of(open_run(options.run), options.individual.value_or("best"));
     std::vector<Shaper> shapers;
-    for (KnowledgeBase& base : read_knowledge_bases(options.bases)) shapers.emplace_back(std::move(base));
+    for (KnowledgeBase& base : read_knowledge_bases(options.bases)) {
+        require_channels(base, options.bases[shapers.size()], trace.channels);
+        shapers.emplace_back(std::move(base));
+    }
     std::string csv = "window,step,product";
     for (std::size_t i = 1; i <= shapers.size(); ++i) fmt::format_to(std::back_inserter(csv), ",value_{}", i);
     csv += '\n';

@@ -31,6 +31,7 @@ void query(Program const& program, QueryOptions const& options) {
     int const length = base.config().window_length;
     Trace const trace = options.run.empty() ? read_windows(options.windows, base.config())
                                             : trace_of(open_run(options.run), options.individual.value_or("best"));
+    require_channels(base, options.base, trace.channels);
     Shaper const shaper{base, ShapingRule::max, index_choice(options.index, options.checks)};
     auto reader = shaper.reader();
     std::string csv = "window,step,feature,distance,value,count\n";

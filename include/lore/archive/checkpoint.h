@@ -38,7 +38,8 @@ struct FoundCheckpoint {
     std::string warning;   ///< why the newer one was not taken, or ""
 };
 /// The newer of the two that is whole, which is then the one at `path`: a damaged newer one is replaced by the older,
-/// so that the next checkpoint does not push the only whole one out. Throws the newer one's Error if neither is.
+/// so that the next checkpoint does not push the only whole one out. Throws the newer one's Error if neither is;
+/// NewerFormat of the one at `path`, which is left where it is.
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older);
 
 }   // namespace lore

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <lore/archive/atomic_file.h>
+#include <lore/core/error.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -46,11 +47,15 @@ void write_container(std::string const& path, FileKind, std::span<std::byte cons
                      Packing = Packing::compressed);
 /// A plain one, to be mapped; in pieces, because a knowledge base of all individuals would not fit into memory twice.
 void write_plain_container(std::string const& path, FileKind, BytePieces payload);
+/// Of a file that a newer Lore wrote: it may be whole, but this build cannot tell.
+struct NewerFormat : Error {
+    using Error::Error;
+};
 struct Payload {
     Bytes bytes;
     std::uint32_t version = container_version;   ///< of the format in which they are laid out
 };
-/// Throws Error: missing, cut, changed, not Lore's, of another kind, or of a newer version.
+/// Throws Error: missing, cut, changed, not Lore's, or of another kind; NewerFormat.
 Payload read_container(std::string const& path, FileKind expected);
 /// The same on bytes in memory, for tests and fuzzing; `name` is what errors call them.
 Bytes seal(FileKind, std::span<std::byte const> payload, Packing = Packing::compressed);

@@ -19,6 +19,9 @@ void write_knowledge_base(std::string const& path, KnowledgeBase const&);
 KnowledgeBase read_knowledge_base(std::string const& path);
 /// Bases that are used together. Throws as read_knowledge_base, and UsageError unless all have windows of one length.
 std::vector<KnowledgeBase> read_knowledge_bases(std::vector<std::string> const& paths);
+/// Before windows of a world with these channels are looked up in the base from `path`. Throws UsageError if it has
+/// others.
+void require_channels(KnowledgeBase const&, std::string const& path, Channels const&);
 /// What a base knows of its world: the channels and the unit of the reward.
 WorldRecord world_record(KnowledgeBase const&);
 

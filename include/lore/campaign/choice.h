@@ -39,6 +39,9 @@ struct Choice {
     ChosenRun const& of(std::string_view knowledge) const;
     /// Whether every knowledge base made from a lineage of this source has its run.
     bool covers(CampaignPlan const&) const;
+    /// The first base for which the campaign asks for another run, level or rule now than when its run was chosen; null
+    /// if there is none.
+    ChosenRun const* outdated(CampaignPlan const&) const;
 };
 
 /// The rule. Runs named by the campaign are taken first; then, in the order of the campaign's file, each knowledge

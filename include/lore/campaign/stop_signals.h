@@ -6,7 +6,8 @@
 
 namespace lore {
 
-/// Counts requests to stop (INT, TERM, HUP, USR1, USR2), as long as it lives; then signals are as they were before.
+/// Counts requests to stop (INT, TERM, HUP unless nohup has turned it off, USR1, USR2), as long as it lives; then
+/// signals are as they were before.
 ///
 /// Signals are let in only during sleep(), which they and the end of a child cut short, so that none is missed between
 /// a look at the state and the sleep. One at a time.

@@ -36,6 +36,10 @@ private:
 /// An Error from errno: "cannot `verb` `path` (reason). remedy".
 Error file_error(std::string_view verb, std::string const& path, int error_number);
 
+/// Whether a file, a directory or anything else has this name. Throws Error where that cannot be told, such as without
+/// permission to look.
+bool is_there(std::string const& path);
+
 /// Makes a directory and those above it; one that is there is left as it is. Throws Error: no permission, or a file has
 /// that name.
 void make_directory(std::string const& path);

@@ -141,6 +141,19 @@ TEST(Checkpoint, keeps_the_last_two_and_falls_back_to_the_older_with_a_warning) 
     EXPECT_THROW(read_checkpoint(path, older), Error);
 }
 
+TEST(Checkpoint, of_a_newer_lore_is_left_where_it_is) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    for (int generation : {1, 2}) write_checkpoint(path, older, checkpoint_at(generation));
+    auto bytes = read_file(path);
+    bytes[8] = std::byte{container_version + 1};   // its format
+    write_file_atomically(path, std::span<std::byte const>{bytes});
+    auto const older_bytes = read_file(older);
+    EXPECT_THROW(read_checkpoint(path, older), NewerFormat);
+    EXPECT_EQ(read_file(path), bytes);
+    EXPECT_EQ(read_file(older), older_bytes);
+}
+
 TEST(Checkpoint, never_keeps_a_damaged_one_in_place_of_the_whole_one) {
     Scratch const scratch;
     std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");

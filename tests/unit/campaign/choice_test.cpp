@@ -72,6 +72,25 @@ TEST(Choice, keeps_what_was_chosen_before) {
     EXPECT_EQ(after.of("kb2").run, 3);
 }
 
+TEST(Choice, is_outdated_where_the_campaign_asks_for_another_run_level_or_rule) {
+    CampaignPlan plan = wishes({7, 0, 0});
+    plan.knowledge[1].run = 2;
+    plan.knowledge[2].best_run = true;
+    Choice const choice = choose_runs(plan, runs_with({7, 3, 8, 5}), {});
+    EXPECT_EQ(choice.outdated(plan), nullptr);
+    auto const outdated_after = [&](auto const& change) {
+        CampaignPlan changed = plan;
+        change(changed.knowledge);
+        ChosenRun const* const old = choice.outdated(changed);
+        return old == nullptr ? "" : old->knowledge;
+    };
+    EXPECT_EQ(outdated_after([](auto& bases) { bases[0].wished_reward = 6; }), "kb1");
+    EXPECT_EQ(outdated_after([](auto& bases) { bases[0].run = 1; }), "") << "the run that it has";
+    EXPECT_EQ(outdated_after([](auto& bases) { bases[1].run = 4; }), "kb2");
+    EXPECT_EQ(outdated_after([](auto& bases) { bases[2].best_run = false; }), "kb3");
+    EXPECT_EQ(outdated_after([](auto& bases) { bases.pop_back(); }), "") << "a base that is gone takes no run";
+}
+
 TEST(Choice, needs_a_run_for_each_knowledge_base) {
     EXPECT_THROW(choose_runs(wishes({7, 6}), runs_with({4}), {2, 3}), Error);
     CampaignPlan plan = wishes({0});

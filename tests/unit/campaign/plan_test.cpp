@@ -99,6 +99,9 @@ TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("part_of = \"kb1\"\ntop = 10", "lineage_of = \"kb1_random\"")
                   .find("with 'balls', 'reward', 'run' or 'best_of'"),
               std::string::npos);
+    EXPECT_NE(complaint("top = 10", "consensus = []").find("it names no base"), std::string::npos);
+    EXPECT_NE(complaint("[report]", "[report]\nfigure5 = [\"kb1\", \"kb1\"]").find("it names 'kb1' twice"),
+              std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"choose\"").find("reserved"), std::string::npos);
     EXPECT_NE(complaint("name = \"kb2\"", "name = \"kb1\"").find("twice"), std::string::npos);
     EXPECT_NE(complaint("name = \"none\"", "name = \"../none\"").find("letters"), std::string::npos);

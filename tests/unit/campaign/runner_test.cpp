@@ -2,6 +2,7 @@
 #include <lore/campaign/runner.h>
 
 #include <lore/campaign/choice.h>
+#include <lore/campaign/stop_signals.h>
 
 #include "campaign_fixture.h"
 
@@ -117,6 +118,63 @@ TEST_F(Runner, chooses_without_source_runs_that_failed) {
     testing::internal::GetCapturedStderr();
     EXPECT_EQ(read_choice(directory().choice()).without, std::vector<int>{1});
     EXPECT_EQ(state("kb1/003").status, StepStatus::done);
+}
+
+TEST_F(Runner, chooses_only_once_every_source_run_has_ended_wherever_it_runs) {
+    RunnerOptions only = options();
+    only.only = {"source/001", "source/002", "source/003"};
+    ASSERT_EQ(run_campaign(plan(), directory(), only), ExitCode::done);
+    only.only = {"choose"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::failure);
+    EXPECT_TRUE(testing::internal::GetCapturedStderr().starts_with("choose cannot be done: it waits for source/004"));
+    EXPECT_EQ(state("choose").status, StepStatus::missing);
+
+    ::setenv("LORE_FAKE_FAIL", "source:4:9", 1);
+    only.only = {"source/004"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::failure);
+    testing::internal::GetCapturedStderr();
+    only.only = {"choose"};
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::done) << "what has failed has ended";
+}
+
+TEST_F(Runner, keeps_why_it_could_not_choose_and_draws_no_pictures_of_runs_not_chosen) {
+    write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
+    ::setenv("LORE_FAKE_FAIL", "source:1:9,source:2:9,source:3:9,source:4:9", 1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::failure);
+    std::string const said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("\nreplay cannot be done: it waits for choose\n"), std::string::npos) << said;
+    EXPECT_EQ(state("choose").status, StepStatus::failed);
+    EXPECT_NE(state("choose").reason.find("no source run is left for 'kb1'"), std::string::npos);
+    EXPECT_EQ(state("replay").status, StepStatus::missing);
+}
+
+TEST_F(Runner, starts_runs_of_one_rank_in_an_allocation_of_several_tasks) {
+    ::setenv("SLURM_NTASKS", "8", 1);   // lore-evolve refuses to be one of eight that do not find each other
+    RunnerOptions only = options();
+    only.only = {"none/001"};
+    EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::done);
+    EXPECT_EQ(std::getenv("SLURM_NTASKS"), nullptr) << "what it starts does not see it";
+}
+
+TEST_F(Runner, goes_on_at_a_hang_up_under_nohup) {
+    auto* const before = std::signal(SIGHUP, SIG_IGN);
+    {
+        StopSignals const signals;
+        std::raise(SIGHUP);
+        signals.sleep(0);
+        EXPECT_EQ(signals.requests(), 0);
+    }
+    std::signal(SIGHUP, SIG_DFL);
+    {
+        StopSignals const signals;
+        std::raise(SIGHUP);
+        signals.sleep(0);
+        EXPECT_EQ(signals.requests(), 1);
+    }
+    std::signal(SIGHUP, before);
 }
 
 TEST_F(Runner, says_what_cannot_be_done_when_its_knowledge_base_fails) {

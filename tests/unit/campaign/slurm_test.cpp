@@ -1,6 +1,7 @@
 #include <lore/campaign/slurm.h>
 
 #include "campaign_fixture.h"
+#include "support/complaint.h"
 
 #include <gtest/gtest.h>
 
@@ -51,4 +52,27 @@ TEST_F(Slurm, leaves_out_what_is_done) {
     EXPECT_EQ(job("none").group, "") << "nothing is left of it";
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     EXPECT_EQ(jobs().size(), 1u) << "only the report";
+}
+
+TEST_F(Slurm, finds_the_id_of_a_job_among_all_that_sbatch_says) {
+    std::filesystem::create_directories(scratch.file("bin"));
+    write("bin/sbatch", "#!/bin/sh\necho 'sbatch: INFO: of the site' >&2\necho x >>" + scratch.file("count") +
+                            "\necho \"$((1000 + $(wc -l <" + scratch.file("count") + ")));cluster\"\n" +
+                            "echo \"$@\" >>" + scratch.file("asked") + "\n");
+    std::filesystem::permissions(scratch.file("bin/sbatch"), std::filesystem::perms::owner_all);
+    std::string const before = std::getenv("PATH");
+    ::setenv("PATH", (scratch.file("bin") + ":" + before).c_str(), 1);
+    testing::internal::CaptureStderr();
+    auto const lines = submit_campaign(plan(), directory(), options().launcher, "/opt/lore-campaign", false);
+    EXPECT_TRUE(testing::internal::GetCapturedStderr().starts_with("sbatch: INFO: of the site\n"));
+    EXPECT_EQ(lines.front(), "1001 source (4 tasks)");
+    EXPECT_TRUE(read(directory().file("slurm/jobs.txt")).starts_with("1001 source\n1002 choose\n"));
+    EXPECT_NE(read(scratch.file("asked")).find("--dependency=afterany:1001 "), std::string::npos);
+
+    write("bin/sbatch", "#!/bin/sh\necho submitted\n");
+    EXPECT_EQ(test::complaint_of<Error>(
+                  [&] { submit_campaign(plan(), directory("d"), options().launcher, "/opt/lore-campaign", false); }),
+              "cannot tell which job was submitted (sbatch printed no job id, but 'submitted'). Look at 'squeue --me', "
+              "and cancel what is there.");
+    ::setenv("PATH", before.c_str(), 1);
 }

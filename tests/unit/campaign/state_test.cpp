@@ -139,6 +139,40 @@ TEST_F(State, of_a_run_with_a_damaged_manifest_is_failed) {
     EXPECT_EQ(state("none/001").status, StepStatus::failed);
 }
 
+TEST_F(State, of_a_run_without_its_configuration_is_failed) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    std::filesystem::remove(directory().run("none/001") + "/config.toml");
+    EXPECT_EQ(state("none/001").status, StepStatus::failed);
+    EXPECT_THAT(state("none/001").reason, HasSubstr("config.toml"));
+}
+
+TEST_F(State, of_a_run_whose_progress_was_cut_is_failed_and_says_where_it_ends) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    std::string const progress = read(directory().run("none/001") + "/progress.csv");
+    write("c/runs/none/001/progress.csv", progress.substr(0, progress.find("\n13,") + 1));
+    EXPECT_EQ(state("none/001").status, StepStatus::failed);
+    EXPECT_THAT(state("none/001").reason, HasSubstr("progress.csv ends at generation 12 of 20"));
+}
+
+TEST_F(State, of_a_choice_that_the_campaign_no_longer_makes_is_failed_and_says_which) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("choose").status, StepStatus::done);
+    std::string text = test::small_campaign;
+    text.replace(text.find("balls = 6"), 9, "balls = 5");
+    write("campaign.toml", text);
+    EXPECT_EQ(state("choose").status, StepStatus::failed);
+    EXPECT_THAT(state("choose").reason, HasSubstr("'kb1' comes from run "));
+}
+
+TEST_F(State, of_an_archive_is_what_it_was_while_its_run_is_made_again) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ChosenRun const origin = recorded_choice(directory(), "source")->of("kb1");
+    std::filesystem::remove_all(directory().run(run_step("source", origin.run)));
+    EXPECT_EQ(state("archive/kb1_all").status, StepStatus::done);
+    EXPECT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    EXPECT_EQ(state("archive/kb1_all").status, StepStatus::done);
+}
+
 TEST_F(State, of_an_archive_with_another_signature_than_its_run_is_failed) {
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
     EXPECT_EQ(state("archive/kb1_all").status, StepStatus::done);

@@ -21,6 +21,15 @@ void touch(std::string const& path) {
 
 }   // namespace
 
+TEST(IsThere, tells_files_directories_and_what_is_not_there_and_says_where_it_cannot) {
+    Scratch const scratch;
+    touch(scratch.file("file"));
+    EXPECT_TRUE(is_there(scratch.file("file")));
+    EXPECT_TRUE(is_there(scratch.file("")));
+    EXPECT_FALSE(is_there(scratch.file("nothing")));
+    EXPECT_THROW(is_there(std::string(300, 'x')), Error) << "no file system has such a name";
+}
+
 TEST(MakeDirectory, makes_those_above_it_and_leaves_one_that_is_there) {
     Scratch const scratch;
     make_directory(scratch.file("a/b"));

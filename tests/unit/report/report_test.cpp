@@ -311,6 +311,17 @@ TEST_F(Report, refuses_a_pool_of_rewards_of_different_units) {
                 ::testing::HasSubstr("pool 'both'"));
 }
 
+TEST_F(Report, compares_no_treatments_of_different_units) {
+    std::filesystem::create_directories(scratch.file("kept"));
+    write("kept/curves.csv",
+          "treatment,generation,runs,mean,low,high\nkb1,0,1,3,3,3\nall,0,1,-1,-1,-1\nnone,0,1,2,2,2\n");
+    write("kept/final.csv", "treatment,run,seed,reward,unit\nkb1,1,1,3,balls\nall,1,1,-1,cos\nnone,1,1,2,balls\n");
+    write_report(plan(), directory("kept"), directory("out"));
+    std::string const pairs = made("pvalues.csv", "out");
+    EXPECT_EQ(std::count(pairs.begin(), pairs.end(), '\n'), 2) << pairs;
+    EXPECT_NE(pairs.find("\nnone,kb1,1,1,"), std::string::npos) << pairs;
+}
+
 TEST_F(Report, replaces_no_table_where_it_is_refused) {
     write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"both\"\ntreatments = [\"kb1\", \"none\"]\n");
     RunnerOptions some = options();
