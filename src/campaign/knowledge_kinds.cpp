@@ -82,7 +82,7 @@ void read_revaluation(TomlTable const& table, KnowledgePlan& plan) {
     auto const success = table.number("success", Real::lowest(), Real::max());
     try {
         plan.value = value_config(rule, gamma, success);
-    } catch (UsageError const& error) { table.fail("value", error.what()); }
+    } catch (UsageError const& error) { table.fail("value", error); }
 }
 
 void read_reduction(TomlTable const& table, KnowledgePlan& plan) {

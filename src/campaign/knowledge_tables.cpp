@@ -64,7 +64,7 @@ void ask_for_evidence(TomlTable const& table, KnowledgePlan const& revalued, Cam
     ValueConfig const& value = revalued.value;
     try {
         check_evidence_of(built.kind == KnowledgeKind::all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
-    } catch (UsageError const& error) { table.fail("value", error.what()); }
+    } catch (UsageError const& error) { table.fail("value", error); }
     if (value.rule == ValueRule::discounted_return) {
         built.gammas = gammas_with(value.gamma, built);
         if (built.gammas.size() > most_gammas)

@@ -179,7 +179,7 @@ KnowledgeConfig read_windows(TomlTable const& table, std::string const& config_p
                              std::vector<std::string> const& overrides) {
     try {
         return read_config(config_path, overrides).knowledge;
-    } catch (Error const& error) { table.fail(table.has("set") ? "set" : "config", error.what()); }
+    } catch (Error const& error) { table.fail(table.has("set") ? "set" : "config", error); }
 }
 
 }   // namespace lore

@@ -37,7 +37,8 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 }   // namespace
 
 Error::Error(std::string_view problem, std::string_view reason, std::string_view remedy, ExitCode code)
-    : std::runtime_error(one_line(problem, reason, remedy)), code_(code) {}
+    : std::runtime_error(one_line(problem, reason, remedy)), problem_(problem), reason_(reason), remedy_(remedy),
+      code_(code) {}
 
 std::string nearest_word(std::string_view typed, std::string_view const* candidates, std::size_t count) {
     std::string best;

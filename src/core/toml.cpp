@@ -68,7 +68,8 @@ struct TomlTable::Node {
     std::shared_ptr<toml::table const> document;
     toml::table const* table = nullptr;
     std::string name;
-    std::string path;   ///< "evolution." for the keys of [evolution]
+    std::string path;        ///< "evolution." for the keys of [evolution]
+    bool has_lines = true;   ///< that errors may name
     mutable std::set<std::string, std::less<>> asked;
 
     toml::node const* find(std::string_view key) const {
@@ -77,15 +78,19 @@ struct TomlTable::Node {
     }
 };
 
-TomlTable TomlTable::parse(std::string_view text, std::string name) {
+TomlTable TomlTable::parse(std::string_view text, std::string name, Lines lines) {
     try {
         auto document = std::make_shared<toml::table const>(toml::parse(text, name));
         auto node = std::make_shared<Node>();
         node->document = document;
         node->table = document.get();
         node->name = std::move(name);
+        node->has_lines = lines == Lines::named;
         return TomlTable{std::move(node)};
     } catch (toml::parse_error const& error) {
+        if (lines == Lines::unknown)
+            throw UsageError(name, std::string{error.description()},
+                             "Give a number, true, false, a text in quotes or a list.");
         throw UsageError(fmt::format("cannot read {}", name),
                          fmt::format("line {}: {}", error.source().begin.line, error.description()),
                          "Mend the TOML syntax.");
@@ -96,10 +101,15 @@ TomlTable TomlTable::read_file(std::string const& path) { return parse(read_text
 
 void TomlTable::fail(std::string_view key, std::string_view reason, std::string_view remedy) const {
     toml::node const* at = key.empty() ? nullptr : node_->table->get(key);
-    std::string const where = at != nullptr && at->source().begin.line != 0
+    std::string const where = node_->has_lines && at != nullptr && at->source().begin.line != 0
                                   ? fmt::format("{}, line {}", node_->name, at->source().begin.line)
                                   : node_->name;
     throw UsageError(fmt::format("{}: {}{}", where, node_->path, key), reason, remedy);
+}
+
+void TomlTable::fail(std::string_view key, Error const& error) const {
+    fail(key, error.reason().empty() ? error.problem() : fmt::format("{}: {}", error.problem(), error.reason()),
+         error.remedy());
 }
 
 bool TomlTable::has(std::string_view key) const { return node_->find(key) != nullptr; }
@@ -199,6 +209,7 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) const {
     child->document = node_->document;
     child->table = inner;
     child->name = node_->name;
+    child->has_lines = node_->has_lines;
     child->path = fmt::format("{}{}.", node_->path, key);
     return TomlTable{std::move(child)};
 }
@@ -216,6 +227,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
         child->document = node_->document;
         child->table = inner;
         child->name = node_->name;
+        child->has_lines = node_->has_lines;
         child->path = fmt::format("{}{}[{}].", node_->path, key, i);
         found.push_back(TomlTable{std::move(child)});
     }

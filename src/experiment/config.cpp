@@ -109,7 +109,7 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
         value = std::move(list);
     }
     std::string const section = setting->section.empty() ? "" : fmt::format("[{}]\n", setting->section);
-    return TomlTable::parse(fmt::format("{}{} = {}\n", section, setting->key, value), label);
+    return TomlTable::parse(fmt::format("{}{} = {}\n", section, setting->key, value), label, TomlTable::Lines::unknown);
 }
 
 /// What no single setting can judge. `name` is the file's, or what else the configuration came from.

@@ -67,7 +67,7 @@ public:
                 if (!read) return;
                 try {
                     value = parse(*read);
-                } catch (UsageError const& error) { table.fail(key, error.what()); }
+                } catch (UsageError const& error) { table.fail(key, error); }
             },
             [&value] { return toml_string(name(value)); });
     }
@@ -84,7 +84,7 @@ public:
                 for (std::string const& word : *read) {
                     try {
                         parsed.push_back(parse(word));
-                    } catch (UsageError const& error) { table.fail(key, error.what()); }
+                    } catch (UsageError const& error) { table.fail(key, error); }
                 }
                 values = std::move(parsed);
             },

@@ -23,8 +23,13 @@ public:
     Error(std::string_view problem, std::string_view reason, std::string_view remedy,
           ExitCode code = ExitCode::failure);
     ExitCode exit_code() const { return code_; }
+    /// The parts of the line, for whoever can say more precisely what the problem is with.
+    std::string const& problem() const { return problem_; }
+    std::string const& reason() const { return reason_; }
+    std::string const& remedy() const { return remedy_; }
 
 private:
+    std::string problem_, reason_, remedy_;
     ExitCode code_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <lore/core/error.h>
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -17,8 +19,10 @@ namespace lore {
 /// another type, not finite or out of range. toml++ stays behind this door.
 class TomlTable {
 public:
+    /// Whether errors name lines of the document: not of one that its author has never seen as lines.
+    enum class Lines : std::uint8_t { named, unknown };
     /// `name` is what error messages call the document: a path, or "--set".
-    static TomlTable parse(std::string_view text, std::string name);
+    static TomlTable parse(std::string_view text, std::string name, Lines lines = Lines::named);
     static TomlTable read_file(std::string const& path);
 
     bool has(std::string_view key) const;
@@ -54,6 +58,8 @@ public:
     void reject_unknown() const;
     /// A UsageError that names this document and, if the key is there, its line.
     [[noreturn]] void fail(std::string_view key, std::string_view reason, std::string_view remedy = "") const;
+    /// The same of a value that something else has refused.
+    [[noreturn]] void fail(std::string_view key, Error const&) const;
 
 private:
     struct Node;

@@ -113,6 +113,20 @@ TEST(Config, refuses_values_of_another_type_or_out_of_range) {
         EXPECT_NE(complaint("", {bad}), "") << bad;
 }
 
+TEST(Config, names_no_line_of_an_override_and_says_what_is_wrong_once) {
+    EXPECT_EQ(complaint("", {"evolution.population=1"}),
+              "--set evolution.population=1: evolution.population (1 is outside 2 .. 100000). Take a number from 2 to "
+              "100000.");
+    EXPECT_EQ(
+        complaint("", {"evolution.generations=abc"}),
+        "--set evolution.generations=abc (Error while parsing value: could not determine value type). Give a number, "
+        "true, false, a text in quotes or a list.");
+    EXPECT_EQ(
+        complaint("", {"evolution.fronts=none"}),
+        "--set evolution.fronts=none: evolution.fronts ('none' is not a rule for fronts: known are dominance, sweep). "
+        "Correct the name.");
+}
+
 TEST(Config, says_where_a_value_came_from_that_does_not_go_with_the_others) {
     EXPECT_EQ(complaint("", {"evolution.founders=7"}), "a.toml with --set evolution.founders=7: evolution.founders (7 "
                                                        "is less than the population of 200). Take at least as many.");
