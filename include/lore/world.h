@@ -78,7 +78,7 @@ typedef struct lore_channel {
 typedef struct lore_facts {
     char const* name;              /* of the world, an identifier: "pendulum" */
     char const* task;              /* what the settings make of it, an identifier: "short_pole" */
-    char const* reward_unit;       /* what axes say, in the plural: "balls"; 1 .. LORE_LONGEST_NAME printable bytes */
+    char const* reward_unit;       /* what axes say, in the plural: "balls"; 1 .. LORE_LONGEST_NAME bytes, UTF-8 */
     int sensor_count;              /* 1 .. LORE_MOST_SENSORS */
     int effector_count;            /* 1 .. LORE_MOST_EFFECTORS */
     int outcome_size;              /* 0 .. LORE_MOST_OUTCOMES numbers that say how a life ended */

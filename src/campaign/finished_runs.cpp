@@ -1,13 +1,10 @@
 #include <lore/campaign/finished_runs.h>
 
 #include <lore/campaign/state.h>
-#include <lore/core/error.h>
 #include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
 
 #include <filesystem>
-
-#include <fmt/format.h>
 
 namespace lore {
 
@@ -20,9 +17,6 @@ std::vector<FinishedRun> finished_runs(CampaignPlan const& plan, CampaignDirecto
         std::filesystem::path const path{directory.run(step.name)};
         finished.push_back({run, read_manifest((path / run_file::manifest).string()),
                             read_progress((path / run_file::progress).string())});
-        if (finished.back().progress.empty())
-            throw Error(fmt::format("{} has no generation in its {}", path.string(), run_file::progress),
-                        "the file was cut", "Remove the run to make it again.");
     }
     return finished;
 }

@@ -101,9 +101,10 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
         if (!is_there(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
-        if (state.generation != manifest->generation)
+        if (!read_last_progress(in(run, run_file::progress)) || state.generation != manifest->generation)
             return say(StepStatus::failed,
-                       fmt::format("its {} ends at generation {} of {}: move {} away, or bring the whole file back",
+                       fmt::format("its {} was cut, it ends at generation {} of {}: move {} away, or bring the whole "
+                                   "file back",
                                    run_file::progress, state.generation, manifest->generation, run));
         if (!longer) return say(StepStatus::done, reward_text(state.best_reward, state.reward_unit));
     }

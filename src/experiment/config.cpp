@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace lore {
@@ -101,12 +102,12 @@ TomlTable document_of(std::string const& override, std::vector<Setting> const& s
         throw UsageError(label, "the value has several lines", "Give one value.");
     bool const is_text =
         setting->kind == Setting::Kind::text || (setting->kind == Setting::Kind::paths && !value.starts_with('['));
-    if (is_text && !value.starts_with('"') && !value.starts_with('\'')) value = "'" + value + "'";
+    if (is_text && !value.starts_with('"') && !value.starts_with('\'')) value = toml_string(value);
     if (setting->kind == Setting::Kind::list && !value.starts_with('[')) {
-        std::string list = "['" + value + "']";
-        for (std::size_t comma = 0; (comma = list.find(',', comma)) != std::string::npos; comma += 3)
-            list.replace(comma, 1, "','");
-        value = std::move(list);
+        std::vector<std::string> words;
+        std::istringstream list{value};
+        for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+        value = toml_strings(words);
     }
     std::string const section = setting->section.empty() ? "" : fmt::format("[{}]\n", setting->section);
     return TomlTable::parse(fmt::format("{}{} = {}\n", section, setting->key, value), label, TomlTable::Lines::unknown);

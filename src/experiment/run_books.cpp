@@ -48,6 +48,7 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
     session.isa = name(active_isa());
     setup_.manifest.sessions.push_back(std::move(session));
     setup_.manifest.status = RunStatus::running;
+    setup_.manifest.outputs.clear();   // they grow from here on
     write_manifest_now();
     write_file_atomically(setup_.file(run_file::config), std::string_view{to_toml(kept)});
 

@@ -63,6 +63,11 @@ std::string verify_manifest(std::string const& path, Lacks const& lacks) {
     Manifest const manifest = read_manifest(path);
     std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
     for (FileRecord const& output : manifest.outputs) {
+        // An archive of strangers may list anything, and nothing outside of it is looked at.
+        if (output.path.empty() || output.path == ".." || output.path.find('/') != std::string::npos)
+            throw Error(fmt::format("cannot read {}", path),
+                        fmt::format("it lists an output outside of its directory, '{}'", output.path),
+                        "Take a copy that is whole.");
         if (lacks((directory / output.path).string())) continue;
         if (!std::filesystem::exists(directory / output.path))
             throw Error(fmt::format("{} is missing", (directory / output.path).string()),

@@ -54,6 +54,7 @@ std::optional<std::string> path_of(std::string_view id) {
 std::optional<std::uint64_t> length_of(json const& entity) {
     auto const found = entity.find("contentSize");
     if (found == entity.end()) return std::nullopt;
+    if (!found->is_string() && !found->is_number()) return std::nullopt;
     std::string const digits = found->is_string() ? found->get<std::string>() : found->dump();
     std::uint64_t bytes = 0;
     auto const [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), bytes);

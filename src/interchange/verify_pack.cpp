@@ -11,6 +11,7 @@
 #include <lore/experiment/verification.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <map>
@@ -214,9 +215,17 @@ void compare_with_sums(CrateDescription const& crate, Found const& found, std::v
 bool is_of_lore(std::string_view path) {
     if (path.starts_with(inputs_folder) || path == crate_file) return false;
     std::string_view const name = path.substr(path.rfind('/') + 1);
-    bool const settings = path.starts_with("runs/") && (name == "config.toml" || name == "arena.toml");
+    bool const of_run = path.starts_with("runs/");
     auto const ends = [&](std::string_view ending) { return name.ends_with(ending); };
-    return settings || ends(".lore") || ends(".lorekb") || ends(".npy") || ends(".csv") || ends(".json");
+    if (ends(".lore") || ends(".lorekb") || ends(".npy")) return true;
+    if (of_run && (name == "config.toml" || name == "arena.toml")) return true;
+    if (!ends(".csv") && !ends(".json")) return false;
+    // Of what lies beside the report's tables nobody knows what its author holds for whole.
+    constexpr std::array tables{"final.csv",  "runs.csv",   "curves.csv",  "population.csv", "kbs.csv",
+                                "speed.csv",  "leads.csv",  "pvalues.csv", "pools.csv",      "matrix.csv",
+                                "replay.csv", "values.csv", "scene.json",  "summary.json"};
+    return of_run || path.starts_with("knowledge/") || path.starts_with("steps/") ||
+           std::find(tables.begin(), tables.end(), path) != tables.end();
 }
 
 /// Of the system's directory for them; goes away with all that is in it.
@@ -225,7 +234,9 @@ public:
     TemporaryDirectory() {
         std::error_code failed;
         path_ = (fs::temp_directory_path(failed) / "lore-verify-XXXXXX").string();
-        if (failed) throw file_error("write", path_, failed.value());
+        if (failed)
+            throw Error("there is no directory for temporary files", failed.message(),
+                        "Set TMPDIR to one that has room for what is in the archive.");
         if (::mkdtemp(path_.data()) == nullptr) throw file_error("write", path_, errno);
     }
     ~TemporaryDirectory() {

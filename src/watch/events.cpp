@@ -91,14 +91,21 @@ public:
         if (!fs::exists(file(run_file::config))) return;   // it is written after the manifest
         try {
             // The manifest first: of what it tells the table has the rows.
-            if (manifest != manifest_stamp_) manifest_ = read_manifest(file(run_file::manifest));
-            if (progress != progress_stamp_ && progress != FileStamp{}) rows_ = read_progress(file(run_file::progress));
+            if (manifest != manifest_stamp_) {
+                manifest_stamp_ = manifest;
+                manifest_is_read_ = false;
+                manifest_ = read_manifest(file(run_file::manifest));
+                manifest_is_read_ = true;
+            }
+            if (!manifest_is_read_) return;   // it is told; of what run the rows are nobody knows
+            if (progress != progress_stamp_ && progress != FileStamp{}) {
+                progress_stamp_ = progress;
+                rows_ = read_progress(file(run_file::progress));
+            }
             tell(every, checkpoint, lines);
         } catch (Error const& error) {
             say({{"event", "unreadable"}, {"run", name_}, {"reason", error.what()}}, lines);
         }
-        manifest_stamp_ = manifest;
-        progress_stamp_ = progress;
         checkpoint_stamp_ = checkpoint;
     }
 
@@ -134,7 +141,7 @@ private:
     void begin(std::string const& started, std::vector<std::string>& lines) {
         Json const settings = settings_in(file(run_file::config));
         begun_ = started;
-        rows_told_ = sessions_begun_ = sessions_ended_ = 0;
+        rows_seen_ = rows_told_ = sessions_begun_ = sessions_ended_ = 0;
         ended_ = false;
         say({{"event", "run_begun"},
              {"run", name_},
@@ -167,13 +174,16 @@ private:
 
     /// Rows that a resumed run has written again are not told again: they are the same.
     void tell_rows(std::size_t until, int every, bool to_the_end, std::vector<std::string>& lines) {
-        for (; rows_told_ < until; ++rows_told_) {
-            bool const last = to_the_end && rows_told_ + 1 == until;
-            if (rows_told_ % static_cast<std::size_t>(every) != 0 && !last) continue;
-            Json event{{"event", "generation"}, {"run", name_}};
-            add_columns(rows_[rows_told_], manifest_.world.reward_unit, event);
-            say(event, lines);
-        }
+        for (; rows_seen_ < until; ++rows_seen_)
+            if (rows_seen_ % static_cast<std::size_t>(every) == 0) tell_row(rows_seen_, lines);
+        if (to_the_end && until > rows_told_) tell_row(until - 1, lines);
+    }
+
+    void tell_row(std::size_t row, std::vector<std::string>& lines) {
+        Json event{{"event", "generation"}, {"run", name_}};
+        add_columns(rows_[row], manifest_.world.reward_unit, event);
+        say(event, lines);
+        rows_told_ = row + 1;
     }
 
     void end_session(RunSession const& session, bool killed, int last, std::vector<std::string>& lines) {
@@ -221,9 +231,11 @@ private:
     std::string path_, name_;
     FileStamp manifest_stamp_, progress_stamp_, checkpoint_stamp_;   ///< of what was read last
     Manifest manifest_;
+    bool manifest_is_read_ = false;   ///< as it is now
     std::vector<GenerationSummary> rows_;
-    std::optional<std::string> begun_;   ///< when its first session began, once that was told
-    std::size_t rows_told_ = 0, sessions_begun_ = 0, sessions_ended_ = 0;
+    std::optional<std::string> begun_;            ///< when its first session began, once that was told
+    std::size_t rows_seen_ = 0, rows_told_ = 0;   ///< up to the last one seen, and told
+    std::size_t sessions_begun_ = 0, sessions_ended_ = 0;
     bool ended_ = false;
 };
 

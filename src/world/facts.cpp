@@ -1,5 +1,7 @@
 #include <lore/world/facts.h>
 
+#include <lore/core/utf8.h>
+
 #include <algorithm>
 #include <set>
 
@@ -44,10 +46,10 @@ std::string why_no_size(std::string_view what, float size) {
 }
 
 std::string why_no_unit(std::string_view unit) {
-    bool const printable =
-        std::all_of(unit.begin(), unit.end(), [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != 0x7f; });
-    if (!unit.empty() && unit.size() <= longest_name && printable) return "";
-    return fmt::format("its reward unit '{}' is not 1 to {} printable bytes", shown(unit), longest_name);
+    std::string_view rest = unit;
+    while (std::size_t const length = printable_bytes(rest)) rest.remove_prefix(length);
+    if (!unit.empty() && unit.size() <= longest_name && rest.empty()) return "";
+    return fmt::format("its reward unit '{}' is not 1 to {} bytes of printable UTF-8", shown(unit), longest_name);
 }
 
 std::string why_channels_are_wrong(WorldFacts const& facts) {

@@ -86,6 +86,13 @@ class ReadCampaign(LoreTest):
             row = status.where(treatment=treatment, run=run)
             self.assertEqual((row["signature"][0], row["best_balls"][0], row["generation"][0]), (signature, balls, 12))
         self.assertEqual(len(status), len(runs))
+        copy = self.scratch / "of-two-units"
+        shutil.copytree(self.directory / "runs", copy / "runs")
+        path = copy / "runs" / "none" / "002" / "manifest.json"
+        manifest = json.loads(path.read_text())
+        manifest["world"]["reward_unit"] = "poles"  # which are whole, too
+        path.write_text(json.dumps(manifest))
+        self.assertIn("best_reward", lore.Campaign(copy).status().columns)
 
     def test_progress_is_tidy_and_has_the_means_of_the_curves(self) -> None:
         campaign = lore.Campaign(self.directory)
@@ -177,6 +184,13 @@ class SeveralTasks(LoreTest):
         drawn = plot.figure3(self.report).axes[0]
         self.assertEqual(drawn.get_ylabel(), "reward [balls] (mean of best-of-runs)")
         self.assertEqual([line.get_label() for line in drawn.lines], ["arena_from_none (n = 1)"])
+        boxes = plot.figure4(self.report).axes[0]
+        self.assertEqual([tick.get_text() for tick in boxes.get_xticklabels()], ["arena_from_none\nn = 1"])
+
+    def test_have_replays_in_arenas_whatever_the_unit(self) -> None:
+        (self.report / "replay.csv").write_text(
+            "replay,step,x,y,theta,carrying,door_open,switch_on,balls_mask,collected\narena/001,0,1,2,0.5,0,0,0,255,0\n")  # fmt: skip
+        self.assertEqual(lore.Report(self.report).replay["balls_mask"].tolist(), [255])
 
     def test_may_have_units_with_commas_and_quotes(self) -> None:
         for name in ("final.csv", "matrix.csv"):

@@ -151,6 +151,17 @@ class ReadRun(LoreTest):
         for name, read in self.readers(lore.Run(copy)).items():
             self.expect_damage_noticed(read, copy / name)
 
+    def test_files_of_another_run_are_noticed(self) -> None:
+        copy = self.scratch / "of-another"
+        shutil.copytree(self.directory, copy)
+        manifest = json.loads((copy / "manifest.json").read_text())
+        for output in manifest["outputs"]:
+            output["xxh3_64"] = "0123456789abcdef"
+        (copy / "manifest.json").write_text(json.dumps(manifest))
+        run = lore.Run(copy)
+        self.expect_damaged(run.lineage, copy / "lineage.lore", "checksum mismatch")
+        self.expect_damaged(lambda: list(run.everybody()), copy / "all.lore", "checksum mismatch")
+
     def readers(self, run: lore.Run):  # type: ignore[no-untyped-def]
         return {
             "config.toml": lambda: run.config,

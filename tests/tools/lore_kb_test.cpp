@@ -73,6 +73,14 @@ TEST_F(LoreKb, builds_tells_and_verifies) {
         EXPECT_THAT(run(std::string{"verify "} + file).output, HasSubstr("whole")) << file;
     std::filesystem::resize_file(scratch.file("kb.csv"), std::filesystem::file_size(scratch.file("kb.csv")) - 9);
     expect_refusal("verify kb.csv", 1, "its last line was cut");
+    Manifest manifest = read_manifest(scratch.file("run/manifest.json"));
+    manifest.outputs.push_back({"output", "/etc/passwd", 1, "0123456789abcdef"});
+    std::filesystem::create_directory(scratch.file("other"));
+    write_manifest(scratch.file("other/manifest.json"), manifest);
+    manifest.outputs.back().path = "../run/config.toml";
+    expect_refusal("verify other/manifest.json", 1, "outside of its directory, '/etc/passwd'");
+    write_manifest(scratch.file("other/manifest.json"), manifest);
+    expect_refusal("verify other/manifest.json", 1, "outside of its directory, '../run/config.toml'");
     std::filesystem::resize_file(scratch.file("kb/provenance.json"), 30);
     expect_refusal("verify kb/provenance.json", 1, "no JSON document");
     for (char const* file : {"lineage.lore", "arena.toml"}) {

@@ -61,8 +61,8 @@ ExitCode verify_archive(Arguments const& arguments) {
     PackVerdict const verdict = verify_pack(arguments.file, stopped_by(signals));
     if (verdict.defects.empty()) {
         if (!arguments.quiet)
-            fmt::print("{}: '{}', {} files, whole; {} left out\n", arguments.file, verdict.title, verdict.files,
-                       verdict.left_out);
+            fmt::print("{}: '{}', {} files, whole; {} left out\n", arguments.file, harmless(verdict.title),
+                       verdict.files, verdict.left_out);
         return ExitCode::done;
     }
     for (std::string const& defect : verdict.defects) write_stderr(harmless(defect) + "\n");

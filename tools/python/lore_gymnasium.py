@@ -48,7 +48,9 @@ def serve(
     observation                       sensors
     ================================  =================================================================================
     Box with bounds                   a continuous one a number: (value - low) / (high - low), clipped
-    Box without, or on one side only  v / (1 + v) of the distance from the bound; without any 0.5 + 0.5 v / (1 + abs(v))
+    Box with a lower bound only       d / (1 + d), d the distance from it
+    Box with an upper bound only      1 / (1 + d)
+    Box without                       0.5 + 0.5 v / (1 + abs(v))
     Discrete(n), MultiBinary(n)       n binary ones: the value's is 1; as they are
     ================================  =================================================================================
 

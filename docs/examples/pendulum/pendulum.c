@@ -44,9 +44,10 @@ static void *open_world(const char *settings, char *error, int error_size) {
     world->length = 1;
     strcpy(world->task, "pole");
     for (; sscanf(settings, "%79[^\n]%n", line, &read) == 1; settings += read + (settings[read] == '\n')) {
+        int end = 0; /* stays so where the closing quote is missing */
         if (sscanf(line, "length = %f %c", &world->length, &extra) == 1 && world->length >= 0.1f && world->length <= 10)
             continue;
-        if (sscanf(line, "task = \"%40[a-z_]\" %c", world->task, &extra) == 1) continue;
+        if (sscanf(line, "task = \"%40[a-z0-9_]\"%n", world->task, &end) == 1 && end > 0 && line[end] == 0) continue;
         snprintf(error, (size_t)error_size, "'%s' is neither length = 0.1 .. 10.0 nor task = \"a_name\"", line);
         free(world);
         return NULL;

@@ -238,7 +238,9 @@ bool set(Pusher& world, char const* line) {
         world.rewards_way = text == "reward = \"way\"";
         return true;
     }
-    if (std::sscanf(line, "task = \"%40[a-z_]\" %c", world.task, &extra) == 1) return true;
+    int end = 0;   // stays so where the closing quote is missing
+    if (std::sscanf(line, "task = \"%40[a-z0-9_]\"%n", world.task, &end) == 1 && end > 0 && line[end] == '\0')
+        return true;
     if (std::sscanf(line, "boxes = %d %c", &world.boxes, &extra) == 1)
         return world.boxes >= 1 && world.boxes <= most_boxes;
     return std::sscanf(line, "mass = %f %c", &world.mass, &extra) == 1 && world.mass >= 0.1f && world.mass <= 10;

@@ -200,8 +200,9 @@ static int read_settings(runner *r, const char *settings, char *error, int error
     char line[80], extra;
     int read;
     for (; sscanf(settings, "%79[^\n]%n", line, &read) == 1; settings += read + (settings[read] == '\n')) {
+        int end = 0; /* stays so where the closing quote is missing */
         if (sscanf(line, "rise = %lf %c", &r->rise, &extra) == 1 && r->rise >= 0 && r->rise <= 0.3) continue;
-        if (sscanf(line, "task = \"%40[a-z_]\" %c", r->task, &extra) == 1) continue;
+        if (sscanf(line, "task = \"%40[a-z0-9_]\"%n", r->task, &end) == 1 && end > 0 && line[end] == 0) continue;
         snprintf(error, (size_t)error_size, "'%s' is neither rise = 0.0 .. 0.3 nor task = \"a_name\"", line);
         return 0;
     }

@@ -151,7 +151,7 @@ TEST_F(State, of_a_run_whose_progress_was_cut_is_failed_and_says_where_it_ends) 
     std::string const progress = read(directory().run("none/001") + "/progress.csv");
     write("c/runs/none/001/progress.csv", progress.substr(0, progress.find("\n13,") + 1));
     EXPECT_EQ(state("none/001").status, StepStatus::failed);
-    EXPECT_THAT(state("none/001").reason, HasSubstr("progress.csv ends at generation 12 of 20"));
+    EXPECT_THAT(state("none/001").reason, HasSubstr("progress.csv was cut, it ends at generation 12 of 20"));
 }
 
 TEST_F(State, of_a_choice_that_the_campaign_no_longer_makes_is_failed_and_says_which) {

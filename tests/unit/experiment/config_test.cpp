@@ -142,6 +142,7 @@ TEST(Config, looks_for_founders_beside_itself_and_where_an_override_is_typed) {
     EXPECT_EQ(parse("", {"founders.from=f.lore"}).founders_from, Paths{"f.lore"});
     EXPECT_EQ(parse("", {"founders.from=a, b.lore"}).founders_from, Paths{"a, b.lore"});
     EXPECT_EQ(parse("", {"founders.from=['a', 'b']"}).founders_from, (Paths{"a", "b"}));
+    EXPECT_EQ(parse("", {"founders.from=o'brien\\k.lorekb"}).founders_from, Paths{"o'brien\\k.lorekb"});
     EXPECT_NE(complaint("[founders]\nshare = 1.5\n"), "");
     EXPECT_NE(complaint("[founders]\nmutate = 1\n"), "");
 }

@@ -83,6 +83,17 @@ TEST(Manifest, is_refused_where_a_whole_number_is_none_or_too_large) {
     }
 }
 
+TEST(Manifest, is_refused_where_it_is_nested_deeper_than_the_stack_could_follow) {
+    Scratch const scratch;
+    write_manifest(scratch.file("m.json"), example());
+    std::string const deep = "\"deep\": " + std::string(200'000, '[') + std::string(200'000, ']') + ",";
+    write_file_atomically(scratch.file("deep.json"), std::string_view{text(scratch.file("m.json")).insert(1, deep)});
+    try {
+        read_manifest(scratch.file("deep.json"));
+        FAIL();
+    } catch (Error const& error) { EXPECT_THAT(error.what(), HasSubstr("it is nested too deeply")); }
+}
+
 TEST(Version, names_program_compiler_instruction_set_and_libraries) {
     std::string const version = version_text("lore-evolve");
     for (char const* const word :

@@ -37,6 +37,14 @@ TEST(CrateReading, finds_the_files_that_are_there_and_those_left_out) {
     EXPECT_EQ(crate.left_out[0].path, "e");
 }
 
+TEST(CrateReading, takes_no_list_for_a_length_however_deep) {
+    std::string const deep = std::string(200'000, '[') + std::string(200'000, ']');
+    CrateDescription const crate =
+        read_crate(crate_with(R"(, {"@id": "a", "@type": "File", "contentSize": )" + deep + "}"));
+    ASSERT_EQ(crate.files.size(), 1u);
+    EXPECT_FALSE(crate.files[0].bytes);
+}
+
 TEST(CrateReading, tells_each_path_that_leads_out_of_it) {
     CrateDescription const crate = read_crate(crate_with(R"(,
         {"@id": "../a", "@type": "File"}, {"@id": "%2e%2e/b", "@type": "File"}, {"@id": "/c", "@type": "File"},

@@ -101,24 +101,28 @@ TEST_F(VerifyPack, does_not_follow_names_that_lead_out) {
 
 TEST_F(VerifyPack, tells_of_a_path_that_two_entries_have_and_reads_the_other_files) {
     Files const described{
-        {"a.csv", "a,b\n1,2\n"}, {"c.csv/d.csv", "a,b\n1,2\n"}, {"c.csv", "a\n1\n"}, {"cut.csv", "a\n1"}};
+        {"a.csv", "a,b\n1,2\n"}, {"c.csv/d.csv", "a,b\n1,2\n"}, {"c.csv", "a\n1\n"}, {"runs/cut.csv", "a\n1"}};
     Files all = described;
     all.emplace_back("a.csv", "a,b\n3,4\n");
     all.emplace_back("ro-crate-metadata.json", crate_of(described));
     write_archive("p.zip", all);
     EXPECT_THAT(defects_of("p.zip"),
                 ElementsAre("a.csv: it is there twice", "c.csv: it is a file and a folder",
-                            "cut.csv: cannot read cut.csv (its last line was cut). Take a copy that is whole."));
+                            "runs/cut.csv: cannot read runs/cut.csv (its last line was cut). Take a copy that is "
+                            "whole."));
 }
 
 TEST_F(VerifyPack, reads_the_files_of_lore) {
-    Files const of_lore{{"cut.csv", "a,b\n1,2\n3"}, {"whole.csv", "a,b\n1,2\n"}, {"x.lore", "no container"}};
+    Files const of_lore{{"final.csv", "a,b\n1,2\n3"},
+                        {"notes.csv", "of its author, without a last line end"},
+                        {"runs.csv", "a,b\n1,2\n"},
+                        {"x.lore", "no container"}};
     Files all = of_lore;
     all.emplace_back("ro-crate-metadata.json", crate_of(of_lore));
     write_archive("p.zip", all);
     auto const defects = defects_of("p.zip");
     ASSERT_EQ(defects.size(), 2u);
-    EXPECT_EQ(defects[0], "cut.csv: cannot read cut.csv (its last line was cut). Take a copy that is whole.");
+    EXPECT_EQ(defects[0], "final.csv: cannot read final.csv (its last line was cut). Take a copy that is whole.");
     EXPECT_THAT(defects[1], HasSubstr("x.lore: "));
 }
 

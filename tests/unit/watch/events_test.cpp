@@ -182,6 +182,29 @@ TEST_F(Events, can_leave_generations_out_but_not_the_last) {
                             "session_ended 4", "run_ended"));
 }
 
+TEST_F(Events, tell_the_last_generation_of_a_session_also_where_it_was_left_out_while_at_work) {
+    write_config("r");
+    write_rows("r", 4);
+    write_manifest("r", RunStatus::running, {session("a", "", 0, 0, "")});
+    EventReader reader{scratch.file("r"), 3};
+    EXPECT_THAT(names(reader.look()), ElementsAre("run_begun", "session_begun", "generation 0", "generation 3"));
+    write_manifest("r", RunStatus::done, {session("a", "b", 0, 4, "done")});
+    EXPECT_THAT(names(reader.look()), ElementsAre("generation 4", "session_ended 4", "run_ended"));
+}
+
+TEST_F(Events, wait_for_a_manifest_that_can_be_read) {
+    write_config("r");
+    write_rows("r", 1);
+    std::ofstream{scratch.file("r/manifest.json")} << "{";
+    EventReader reader{scratch.file("r"), 1};
+    EXPECT_THAT(names(reader.look()), ElementsAre("unreadable"));
+    write_rows("r", 2);
+    EXPECT_THAT(reader.look(), IsEmpty()) << "of no run that is known";
+    write_manifest("r", RunStatus::running, {session("a", "", 0, 0, "")});
+    EXPECT_THAT(names(reader.look()),
+                ElementsAre("run_begun", "session_begun", "generation 0", "generation 1", "generation 2"));
+}
+
 TEST_F(Events, say_once_what_cannot_be_read) {
     write_config("r");
     write_rows("r", 1);

@@ -73,7 +73,7 @@ TEST(WorldFacts, have_counts_and_sizes_within_bounds) {
     EXPECT_THAT(why_after([](WorldFacts& facts) { facts.max_batch = 0; }), HasSubstr("max_batch is 0"));
     for (float const size : {0.0f, -1.0f, 2e6f, std::numeric_limits<float>::quiet_NaN()})
         EXPECT_THAT(why_after([&](WorldFacts& facts) { facts.height = size; }), HasSubstr("its height is"));
-    for (std::string const& unit : {std::string{}, std::string{"a\tb"}, std::string(41, 'u')})
+    for (std::string const& unit : {std::string{}, std::string{"a\tb"}, std::string(41, 'u'), std::string{"m\xb2"}})
         EXPECT_THAT(why_after([&](WorldFacts& facts) { facts.reward_unit = unit; }), HasSubstr("reward unit"));
     EXPECT_EQ(why_after([](WorldFacts& facts) { facts.reward_unit = "m\xc2\xb2 gained"; }), "") << "UTF-8 is printable";
 }

@@ -47,13 +47,16 @@ class Campaign:
 
         Raises Damaged.
         """
-        rows = [
-            (treatment, number, of.seed, of.status, of.generation, of.generations, of.best_reward, of.best, of.signature)
+        found = [
+            (treatment, number, run.manifest)
             for treatment in self.treatments
             for number, run in self.runs(treatment).items()
-            for of in [run.manifest]
         ]
-        counted = all(isinstance(row[6], int) for row in rows)
+        rows = [
+            (treatment, number, of.seed, of.status, of.generation, of.generations, of.best_reward, of.best, of.signature)
+            for treatment, number, of in found
+        ]
+        counted = all(of.world.get("reward_unit", "balls") == "balls" for _, _, of in found)
         best, kind = ("best_balls", np.int64) if counted else ("best_reward", np.float64)
         names = ["treatment", "run", "seed", "status", "generation", "generations", best, "best", "signature"]
         kinds = [np.str_, np.int64, np.uint64, np.str_, np.int64, np.int64, kind, np.str_, np.str_]

@@ -88,6 +88,7 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
     of_all = {
         name: final[report.reward_word][np.isin(final["treatment"], report.members(name))]
         for name in report.shown(task)
+        if task is not None or _has_unit(report, name)
     }
     treatments = [name for name, of_one in of_all.items() if len(of_one)]
     rewards = [of_all[name] for name in treatments]
@@ -305,7 +306,7 @@ def _draw_scene(axes: Any, scene: Scene) -> None:
 def _draw_world(axes: Any, scene: WorldScene, steps: Table) -> None:
     """The world's own scene below the path, whose start is green and whose end is red."""
     width, height = scene.size
-    axes.set(xlim=(0, width), ylim=(height, 0), aspect="equal", xlabel="x", ylabel="y")
+    axes.set(xlim=(0, width), ylim=(height, 0), aspect="equal", xlabel="x (u)", ylabel="y (u)")
     if scene.svg:
         axes.imshow(_rendered(scene), extent=(0, width, height, 0), zorder=0, interpolation="antialiased")
     for step, color in ((0, "#2f9e6e"), (-1, "#e0452f")):

@@ -74,7 +74,7 @@ class Report:
     """What `lore-campaign report` wrote: into the campaign's directory, or elsewhere by --out.
 
     Each table is read when it is asked for, and raises Damaged or FileNotFoundError (docs/manual/formats.md has their
-    columns; runs, replay, values and scene.json are not in every report).
+    columns; runs, planned, matrix, replay, values and scene.json are not in every report).
     """
 
     path: str
@@ -193,9 +193,9 @@ class Report:
         and reward."""
         if "theta" not in read_text(self._file("replay.csv")).split("\n", 1)[0].split(","):
             return self._table("replay.csv", replay="text", step="int", x="float", y="float", reward="float")
-        return self._table("replay.csv", replay="text", step="int", x="float", y="float", theta="float",
-                           carrying="int", door_open="int", switch_on="int", balls_mask="int",
-                           collected="int")  # fmt: skip
+        columns = {"replay": "text", "step": "int", "x": "float", "y": "float", "theta": "float", "carrying": "int",
+                   "door_open": "int", "switch_on": "int", "balls_mask": "int", "collected": "int"}  # fmt: skip
+        return read_table(self._file("replay.csv"), columns)  # balls whatever the reward's unit is
 
     @property
     def values(self) -> Table:

@@ -162,11 +162,11 @@ class Run:
     def lineage(self) -> Lineage:
         """All ancestors of the last population. Raises Damaged, FileNotFoundError (a run that never stopped has none;
         also where lore-kb is not found)."""
-        return Lineage(self._file("lineage.lore"))
+        return Lineage(self._checked("lineage.lore"))
 
     def everybody(self) -> Individuals:
         """Every individual ever evaluated, one after the other, of a run with `--archive all`. Raises likewise."""
-        return Individuals(self._file("all.lore"))
+        return Individuals(self._checked("all.lore"))
 
     def trace(self, individual: str = "best") -> Trace:
         """What an archived individual does, simulated again by lore-replay.
@@ -193,10 +193,10 @@ def _difference(path: str, name: str, manifest: Manifest) -> str:
     listed = next((file for file in manifest.outputs if file["path"] == name), None)
     if manifest.status == "running" or listed is None:
         return ""
-    with open(path, "rb") as file:
-        data = file.read()
-    if len(data) != listed["bytes"]:
-        return f"it has {len(data)} bytes, its manifest lists {listed['bytes']}"
+    size = os.path.getsize(path)
+    if size != listed["bytes"]:
+        return f"it has {size} bytes, its manifest lists {listed['bytes']}"
+    data = np.memmap(path, np.uint8, "r") if size else b""  # an archive of all may not fit into memory
     if checksum_text(xxh3_64(data)) != listed["xxh3_64"]:
         return "checksum mismatch: it is not as its manifest lists it"
     return ""

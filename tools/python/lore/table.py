@@ -102,7 +102,7 @@ def parse_table(text: str, path: FilePath, schema: Schema, optional: Iterable[st
         raise Damaged(path, "the file is empty")
     if not text.endswith("\n"):
         raise Damaged(path, "its last line was cut")
-    header, *lines = text[:-1].replace("\r\n", "\n").split("\n")
+    header, *lines = text.replace("\r\n", "\n")[:-1].split("\n")
     names = _fields(header, path)
     if len(set(names)) != len(names):
         raise Damaged(path, "two columns have one name")
