@@ -74,7 +74,7 @@ TEST_F(LoreKb, builds_tells_and_verifies) {
     std::filesystem::resize_file(scratch.file("kb.csv"), std::filesystem::file_size(scratch.file("kb.csv")) - 9);
     expect_refusal("verify kb.csv", 1, "its last line was cut");
     Manifest manifest = read_manifest(scratch.file("run/manifest.json"));
-    manifest.outputs.push_back({"output", "/etc/passwd", 1, "0123456789abcdef"});
+    manifest.outputs = {{"output", "/etc/passwd", 1, "0123456789abcdef"}};
     std::filesystem::create_directory(scratch.file("other"));
     write_manifest(scratch.file("other/manifest.json"), manifest);
     manifest.outputs.back().path = "../run/config.toml";

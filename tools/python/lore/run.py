@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .checksum import checksum_text, xxh3_64
 from .errors import Damaged, FilePath
@@ -196,7 +197,8 @@ def _difference(path: str, name: str, manifest: Manifest) -> str:
     size = os.path.getsize(path)
     if size != listed["bytes"]:
         return f"it has {size} bytes, its manifest lists {listed['bytes']}"
-    data = np.memmap(path, np.uint8, "r") if size else b""  # an archive of all may not fit into memory
+    # Mapped: an archive of all may not fit into memory.
+    data: NDArray[np.uint8] = np.memmap(path, np.uint8, "r") if size else np.empty(0, np.uint8)
     if checksum_text(xxh3_64(data)) != listed["xxh3_64"]:
         return "checksum mismatch: it is not as its manifest lists it"
     return ""
