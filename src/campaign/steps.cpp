@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -142,12 +144,15 @@ std::vector<Step> steps_of(CampaignPlan const& plan) {
 }
 
 std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::string> const& names) {
-    std::vector<Step> found;
+    std::set<std::string_view> wanted;   // by name
     for (std::string const& name : names) {
-        std::size_t const before = found.size();
-        for (Step const& step : steps)
-            if (step.name == name || step.group == name) found.push_back(step);
-        if (found.size() != before) continue;
+        std::size_t found = 0;
+        for (Step const& step : steps) {
+            if (step.name != name && step.group != name) continue;
+            wanted.insert(step.name);
+            ++found;
+        }
+        if (found > 0) continue;
         std::vector<std::string_view> known;
         for (Step const& step : steps) {
             known.push_back(step.name);
@@ -157,7 +162,10 @@ std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::s
         throw UsageError(fmt::format("there is no step '{}'", name), "not in this campaign",
                          meant.empty() ? "'lore-campaign plan' lists them." : fmt::format("Did you mean '{}'?", meant));
     }
-    return found;
+    std::vector<Step> chosen;
+    std::copy_if(steps.begin(), steps.end(), std::back_inserter(chosen),
+                 [&](Step const& step) { return wanted.contains(step.name); });
+    return chosen;
 }
 
 std::string usual_launch() { return LORE_MPIRUN " -n {ranks} --bind-to none"; }

@@ -35,7 +35,8 @@ std::string flat_name(std::string_view step);
 
 /// All of a campaign, in the order in which it is worked through; every step after those that it waits for.
 std::vector<Step> steps_of(CampaignPlan const&);
-/// Throws UsageError for a name that is neither a step nor a group.
+/// Those with these names, or of these groups, each once and in their order. Throws UsageError for a name that is
+/// neither a step nor a group.
 std::vector<Step> steps_named(std::vector<Step> const&, std::vector<std::string> const& names);
 
 /// Where a campaign keeps what.

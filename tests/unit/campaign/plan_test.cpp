@@ -90,6 +90,13 @@ TEST_F(Campaign, reads_the_files_that_come_with_lore) {
     }
 }
 
+TEST_F(Campaign, has_each_step_that_is_named_once_in_its_order) {
+    std::vector<std::string> names;
+    for (Step const& step : steps_named(steps_of(plan()), {"none/002", "source/003", "source", "none/002"}))
+        names.push_back(step.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"source/001", "source/002", "source/003", "source/004", "none/002"}));
+}
+
 TEST_F(Campaign, refuses_mistakes_in_one_line_that_helps) {
     EXPECT_NE(complaint("top = 10", "topp = 10").find("Did you mean 'knowledge[4].top'"), std::string::npos);
     EXPECT_NE(complaint("top = 10", "").find("one of top, least_value, least_count, consensus is missing"),
