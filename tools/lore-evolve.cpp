@@ -9,7 +9,6 @@
 #include "program.h"
 
 #include <lore/core/error.h>
-#include <lore/core/file.h>
 #include <lore/core/isa.h>
 #include <lore/core/toml.h>
 #include <lore/experiment/run.h>
@@ -185,9 +184,8 @@ int main(int argc, char** argv) {
             complain(this_program, fmt::format("rank {} on {} ran out of memory", session.rank(), host_name()),
                      ExitCode::failure);
             session.abort(1);
-        } catch (std::filesystem::filesystem_error const& error) {   // whether a file is there cannot be told
-            status = complain(this_program, file_error("look at", error.path1(), error.code().value()).what(),
-                              ExitCode::failure);
+        } catch (std::filesystem::filesystem_error const& error) {
+            complain(this_program, error);
             session.abort(1);
         } catch (std::exception const& error) {
             // 3. Whatever was not foreseen ends all ranks: one that just left would let the others wait for ever.

@@ -21,6 +21,11 @@ inline int complain(std::string_view program, std::string_view what, ExitCode co
     return static_cast<int>(code);
 }
 
+/// The same of a question about a file that could not be answered, such as whether it is there.
+inline int complain(std::string_view program, std::filesystem::filesystem_error const& error) {
+    return complain(program, file_error("look at", error.path1(), error.code().value()).what(), ExitCode::failure);
+}
+
 /// What to say where stdout could not take the result; nothing where it did.
 inline std::string lost_result(std::string_view remedy = "Send it where it can be written.") {
     std::string const reason = why_stdout_is_lost();
@@ -39,8 +44,7 @@ int run_program(std::string_view name, Run&& run) {
     } catch (Error const& error) {
         return complain(name, error.what(), error.exit_code());
     } catch (std::filesystem::filesystem_error const& error) {
-        // Of a question that throws only where it cannot be answered, such as whether a file is there.
-        return complain(name, file_error("look at", error.path1(), error.code().value()).what(), ExitCode::failure);
+        return complain(name, error);
     } catch (std::bad_alloc const&) {
         return complain(name, "out of memory", ExitCode::failure);
     } catch (std::exception const& error) {

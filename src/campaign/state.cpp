@@ -65,10 +65,12 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
                     Treatment const& treatment, std::optional<std::uint64_t> seed, bool taken) {
     std::string const run = directory.run(step.name);
     StepState state;
-    RunProgress const progress = last_progress(run);
-    state.generation = progress.generation;
-    state.best_reward = progress.best_reward;
-    state.seconds = progress.seconds;
+    auto const row = read_last_progress(in(run, run_file::progress));
+    if (row) {
+        state.generation = row->generation;
+        state.best_reward = row->best_reward;
+        state.seconds = row->seconds;
+    }
     ExperimentConfig const planned = read_config(plan.config_path(treatment), treatment.overrides);
     state.generations = planned.evolution.generations;
     if (!planned.has_world()) state.reward_unit = first_reward_unit;
@@ -101,7 +103,7 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
             return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
         if (!is_there(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
-        if (!read_last_progress(in(run, run_file::progress)) || state.generation != manifest->generation)
+        if (!row || row->generation != manifest->generation)
             return say(StepStatus::failed,
                        fmt::format("its {} was cut, it ends at generation {} of {}: move {} away, or bring the whole "
                                    "file back",

@@ -146,13 +146,13 @@ std::vector<Step> steps_of(CampaignPlan const& plan) {
 std::vector<Step> steps_named(std::vector<Step> const& steps, std::vector<std::string> const& names) {
     std::set<std::string_view> wanted;   // by name
     for (std::string const& name : names) {
-        std::size_t found = 0;
+        bool found = false;
         for (Step const& step : steps) {
             if (step.name != name && step.group != name) continue;
             wanted.insert(step.name);
-            ++found;
+            found = true;
         }
-        if (found > 0) continue;
+        if (found) continue;
         std::vector<std::string_view> known;
         for (Step const& step : steps) {
             known.push_back(step.name);

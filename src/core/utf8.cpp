@@ -25,6 +25,11 @@ std::size_t printable_bytes(std::string_view text) {
     return length;
 }
 
+bool is_printable(std::string_view text) {
+    while (std::size_t const length = printable_bytes(text)) text.remove_prefix(length);
+    return text.empty();
+}
+
 std::string harmless(std::string_view text) {
     std::string out;
     while (!text.empty()) {

@@ -25,13 +25,6 @@ constexpr auto part_names = names_for<PackPart>("individuals", "checkpoints", "b
 
 std::string_view file_name(std::string_view path) { return path.substr(path.rfind('/') + 1); }
 
-/// Whether all of it is UTF-8 without control characters: such a name is the same in every archive.
-bool is_plain_text(std::string_view text) {
-    bool const empty = text.empty();
-    while (std::size_t const length = printable_bytes(text)) text.remove_prefix(length);
-    return text.empty() && !empty;
-}
-
 /// A file that the campaign is made from.
 struct Input {
     std::string source;     ///< where it is read
@@ -98,7 +91,7 @@ std::string_view name(PackPart part) { return part_names[part]; }
 PackPart pack_part(std::string_view name) { return part_names.choice(name, "a part that can be left out"); }
 
 bool is_safe_path(std::string_view path) {
-    if (!is_plain_text(path)) return false;
+    if (!is_printable(path)) return false;
     for (std::string_view rest = path;; rest.remove_prefix(rest.find('/') + 1)) {
         std::string_view const step = rest.substr(0, rest.find('/'));
         if (step.empty() || step == "." || step == "..") return false;

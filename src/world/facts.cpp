@@ -46,9 +46,7 @@ std::string why_no_size(std::string_view what, float size) {
 }
 
 std::string why_no_unit(std::string_view unit) {
-    std::string_view rest = unit;
-    while (std::size_t const length = printable_bytes(rest)) rest.remove_prefix(length);
-    if (!unit.empty() && unit.size() <= longest_name && rest.empty()) return "";
+    if (!unit.empty() && unit.size() <= longest_name && is_printable(unit)) return "";
     return fmt::format("its reward unit '{}' is not 1 to {} bytes of printable UTF-8", shown(unit), longest_name);
 }
 

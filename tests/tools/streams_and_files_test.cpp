@@ -173,10 +173,14 @@ TEST_F(Files, of_a_resumed_run_that_was_killed_are_as_its_manifest_says) {
 }
 
 TEST_F(Files, that_cannot_be_looked_at_are_named) {
-    test::Ran const ran = shell("$kb individuals " + std::string(300, 'x'));
-    EXPECT_EQ(ran.exit_code, 1);
-    EXPECT_EQ(ran.errors,
-              "lore-kb: cannot look at " + std::string(300, 'x') + " (File name too long). Check the path.\n");
+    std::string const name(300, 'x');
+    for (std::string const& line : {"$program small.toml --out " + name, "$kb individuals " + name}) {
+        test::Ran const ran = shell(line);
+        EXPECT_EQ(ran.exit_code, 1) << line;
+        EXPECT_THAT(ran.errors, ::testing::HasSubstr(": cannot look at " + name)) << line;
+        EXPECT_THAT(ran.errors, ::testing::EndsWith(" (File name too long). Check the path.\n")) << line;
+        EXPECT_EQ(std::count(ran.errors.begin(), ran.errors.end(), '\n'), 1) << ran.errors;
+    }
 }
 
 TEST_F(Files, that_have_moved_are_read_where_they_are_now) {

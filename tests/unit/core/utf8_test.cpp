@@ -27,6 +27,12 @@ TEST(Utf8, has_control_characters_which_nobody_can_see) {
         EXPECT_EQ(printable_bytes(text), 0u) << text;
 }
 
+TEST(Utf8, is_printable_where_every_character_is) {
+    EXPECT_TRUE(is_printable("m\xc2\xb2 gained"));
+    EXPECT_TRUE(is_printable(""));
+    for (char const* text : {"m\xb2", "a\tb", "a\x7f"}) EXPECT_FALSE(is_printable(text)) << text;
+}
+
 TEST(Harmless, text_has_no_character_that_steers_a_terminal) {
     EXPECT_EQ(harmless("plain, gr\xc3\xb6\xc3\x9f"
                        "er \xf0\x9f\xa4\x96"),
