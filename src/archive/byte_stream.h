@@ -60,6 +60,11 @@ public:
         if (count != 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
         return values;
     }
+    template <Flat T>
+    void get_into(std::span<T> values) {
+        if (values.size() > rest_.size() / sizeof(T)) fail("it ends too early");
+        if (!values.empty()) std::memcpy(values.data(), take(values.size_bytes()), values.size_bytes());
+    }
     std::uint64_t get_varint() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64; shift += 7) {

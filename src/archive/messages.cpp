@@ -4,6 +4,9 @@
 #include "edge_bytes.h"
 #include "field_limits.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -16,76 +19,89 @@ constexpr std::size_t most_batch = 1u << 20;
 constexpr std::size_t longest_evaluation = 1u << 24;            ///< words; runs could claim any number of them
 constexpr std::size_t most_words = (most_channels + 15) / 16;   ///< a step
 
-/// The first place after `first`, whole steps away, with another step than that at `first`, or the end. A step has so
-/// many words.
-std::size_t end_of_run(std::span<std::uint16_t const> words, std::size_t first, std::size_t in_a_step) {
-    constexpr std::size_t at_once = 16;   // one comparison in long runs
-    std::size_t end = first + in_a_step;
-    while (end + at_once <= words.size() &&
-           std::memcmp(&words[end], &words[end - in_a_step], at_once * sizeof(std::uint16_t)) == 0)
-        end += at_once;
-    while (end < words.size() && words[end] == words[end - in_a_step]) ++end;
-    return end - (end - first) % in_a_step;
+using Words = std::vector<std::uint16_t>;   ///< Descriptors::channel_bits
+
+constexpr std::size_t block_words = 64;
+using Block = std::array<std::uint16_t, block_words>;
+
+/// The word of the step before; 0 before the first step.
+std::uint16_t word_before(Words const& words, std::size_t place, std::size_t in_a_step) {
+    return place < in_a_step ? std::uint16_t{0} : words[place - in_a_step];
 }
 
-/// Most steps repeat the one before: as runs they take a tenth. Written out where that is shorter.
-void put_words(ByteWriter& out, std::vector<std::uint16_t> const& words, int words_a_step) {
-    std::size_t in_a_step = static_cast<std::size_t>(std::max(1, words_a_step));
-    if (words.size() % in_a_step != 0) in_a_step = 1;
-    ByteWriter runs;
-    for (std::size_t i = 0; i < words.size();) {
-        std::size_t const end = end_of_run(words, i, in_a_step);
-        runs.put_varint((end - i) / in_a_step);
-        runs.put_all(std::span{words}.subspan(i, in_a_step));
-        i = end;
-    }
-    bool const as_runs = runs.size() < words.size() * sizeof(std::uint16_t);
-    out.put(static_cast<std::uint8_t>(as_runs ? in_a_step : 0));
+/// Most steps repeat the one before. A block is sent as a bit a word, whether it differs from that of the step before,
+/// and those words that do.
+void put_words(ByteWriter& out, Words const& words, int words_a_step) {
+    std::size_t const in_a_step = static_cast<std::size_t>(std::max(1, words_a_step));
+    out.put(static_cast<std::uint8_t>(in_a_step));
     out.put_varint(words.size());
-    if (as_runs) out.put_all(std::span{runs.bytes()});
-    else out.put_all(std::span{words});
-}
-
-std::vector<std::uint16_t> get_words(ByteReader& in) {
-    std::size_t const in_a_step = in.get<std::uint8_t>();   // 0: written out
-    std::size_t const count = in.get_count(longest_evaluation);
-    if (in_a_step == 0) return in.get_all<std::uint16_t>(count);
-    if (in_a_step > most_words || count % in_a_step != 0) in.fail("steps of no world");
-    std::vector<std::uint16_t> words;
-    words.reserve(count);
-    while (words.size() < count) {
-        std::size_t const run = in.get_count((count - words.size()) / in_a_step);
-        if (run == 0) in.fail("a run of no length");
-        auto const step = in.get_all<std::uint16_t>(in_a_step);
-        if (in_a_step == 1) words.insert(words.end(), run, step[0]);
-        else
-            for (std::size_t i = 0; i < run; ++i) words.insert(words.end(), step.begin(), step.end());
+    for (std::size_t first = 0; first < words.size(); first += block_words) {
+        std::size_t const end = std::min(first + block_words, words.size());
+        std::uint64_t which = 0;
+        Block differing;
+        std::size_t count = 0;
+        bool const repeats = first >= in_a_step && std::memcmp(&words[first], &words[first - in_a_step],
+                                                               (end - first) * sizeof(std::uint16_t)) == 0;
+        for (std::size_t i = first; i < end && !repeats; ++i) {   // without a jump: which words differ is hard to guess
+            bool const differs = words[i] != word_before(words, i, in_a_step);
+            which |= static_cast<std::uint64_t>(differs) << (i - first);
+            differing[count] = words[i];
+            count += differs;
+        }
+        out.put_varint(which);
+        out.put_all(std::span<std::uint16_t const>{differing.data(), count});
     }
-    return words;
 }
 
-/// Other fields of evaluations: vectors with their count before them, all else as it lies in memory.
-template <class T>
-void put_field(ByteWriter& out, std::vector<T> const& items) {
-    out.put_varint(items.size());
-    out.put_all(std::span{items});
-}
-template <class T>
-void get_field(ByteReader& in, std::vector<T>& items) {
-    items = in.get_all<T>(in.get_count(most_items<T>));
-}
-template <Flat T>
-void put_field(ByteWriter& out, T const& value) {
-    out.put(value);
-}
-template <Flat T>
-void get_field(ByteReader& in, T& value) {
-    value = in.get<T>();
+/// Words [first, last) as in the step before.
+void repeat(Words& words, std::size_t first, std::size_t last, std::size_t in_a_step) {
+    if (in_a_step > 1 || first == 0)
+        for (; first < last; ++first) words[first] = word_before(words, first, in_a_step);
+    else std::fill(words.data() + first, words.data() + last, words[first - 1]);
 }
 
-/// Descriptors::channel_bits.
+void get_words(ByteReader& in, Words& words) {
+    std::size_t const in_a_step = in.get<std::uint8_t>();
+    if (in_a_step == 0 || in_a_step > most_words) in.fail("steps of no world");
+    words.resize(in.get_count(longest_evaluation));
+    for (std::size_t first = 0; first < words.size(); first += block_words) {
+        std::size_t const count = std::min(block_words, words.size() - first);
+        std::uint64_t const which = in.get_varint();
+        if (count < block_words && which >> count != 0) in.fail("a word after the last one");
+        Block differing;
+        in.get_into(std::span{differing}.first(static_cast<std::size_t>(std::popcount(which))));
+        auto next = differing.begin();
+        std::size_t place = first;
+        for (std::uint64_t rest = which; rest != 0; rest &= rest - 1) {
+            std::size_t const other = first + static_cast<std::size_t>(std::countr_zero(rest));
+            repeat(words, place, other, in_a_step);
+            words[other] = *next++;
+            place = other + 1;
+        }
+        repeat(words, place, first + count, in_a_step);
+    }
+}
+
+/// A field of an evaluation: words of steps by what changes, other vectors with their count before them, all else as it
+/// lies in memory.
 template <class Field>
-inline constexpr bool is_words = std::is_same_v<std::remove_cvref_t<Field>, std::vector<std::uint16_t>>;
+void put_field(ByteWriter& out, Field const& field, int words_a_step) {
+    if constexpr (std::is_same_v<Field, Words>) put_words(out, field, words_a_step);
+    else if constexpr (Flat<Field>) out.put(field);
+    else {
+        out.put_varint(field.size());
+        out.put_all(std::span{field});
+    }
+}
+template <class Field>
+void get_field(ByteReader& in, Field& field) {
+    if constexpr (std::is_same_v<Field, Words>) get_words(in, field);
+    else if constexpr (Flat<Field>) field = in.get<Field>();
+    else {
+        using Item = typename Field::value_type;
+        field = in.get_all<Item>(in.get_count(most_items<Item>));
+    }
+}
 
 /// Calls `visit` with every field of an Evaluation and of its Descriptors, in the order in which they are sent.
 template <class AnyEvaluation, class Visit>
@@ -95,6 +111,18 @@ void visit_fields(AnyEvaluation& evaluation, Visit const& visit) {
     visit(shaping);
     visit(shown);
     for_each_field(descriptors, visit);
+}
+
+/// Calls `visit` with what distances of this kind compare.
+template <class AnyDescriptors, class Visit>
+void visit_compared(DistanceKind kind, AnyDescriptors& descriptors, Visit const& visit) {
+    switch (kind) {
+    case DistanceKind::adhoc: return visit(descriptors.outcome);
+    case DistanceKind::hamming: visit(descriptors.channel_bits); [[fallthrough]];   // and how many channels there are
+    case DistanceKind::entropy: return visit(descriptors.entropies);
+    case DistanceKind::trajectory: return visit(descriptors.path);
+    default: return for_each_field(descriptors, visit);
+    }
 }
 
 }   // namespace
@@ -134,10 +162,7 @@ Bytes pack_deliveries(std::span<Delivery const> deliveries) {
     for (auto const& [ticket, evaluation] : deliveries) {
         out.put_varint(static_cast<std::uint64_t>(ticket));
         int const words_a_step = evaluation.descriptors.words();
-        visit_fields(evaluation, [&](auto const& field) {
-            if constexpr (is_words<decltype(field)>) put_words(out, field, words_a_step);
-            else put_field(out, field);
-        });
+        visit_fields(evaluation, [&](auto const& field) { put_field(out, field, words_a_step); });
     }
     return out.take();
 }
@@ -147,50 +172,58 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     std::vector<Delivery> deliveries(in.get_count(std::min(most_batch, bytes.size())));
     for (auto& [ticket, evaluation] : deliveries) {
         ticket = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
-        visit_fields(evaluation, [&](auto& field) {
-            if constexpr (is_words<decltype(field)>) field = get_words(in);
-            else get_field(in, field);
-        });
+        visit_fields(evaluation, [&](auto& field) { get_field(in, field); });
     }
     in.expect_end();
     return deliveries;
 }
 
-Bytes pack_rows(int first, int last, std::span<Descriptors const* const> pool) {
+Bytes pack_pool(DistanceKind kind, int ranks, std::span<Descriptors const* const> members) {
     ByteWriter out;
-    out.put(std::int32_t{first});
-    out.put(std::int32_t{last});
-    for (Descriptors const* member : pool.first(static_cast<std::size_t>(last))) {
-        out.put_varint(member->path.size());
-        out.put_all(std::span{member->path});
-    }
+    out.put(kind);
+    out.put_varint(static_cast<std::uint64_t>(ranks));
+    out.put_varint(members.size());
+    for (Descriptors const* member : members)
+        visit_compared(kind, *member, [&](auto const& field) { put_field(out, field, member->words()); });
+    return out.take();
+}
+
+void unpack_pool(std::span<std::byte const> bytes, ComparedPool& pool) {
+    ByteReader in{bytes, "a message with descriptors"};
+    DistanceKind const before = pool.kind;
+    pool.kind = in.get<DistanceKind>();
+    if (static_cast<int>(pool.kind) >= distance_kinds) in.fail("a distance that there is not");
+    pool.ranks = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
+    if (pool.kind != before) pool.members.clear();
+    pool.members.resize(in.get_count(std::min(most_batch, bytes.size())));
+    for (Descriptors& member : pool.members)
+        visit_compared(pool.kind, member, [&](auto& field) { get_field(in, field); });
+    in.expect_end();
+}
+
+Bytes pack_rows(RowRequest const& request) {
+    ByteWriter out;
+    out.put(request);
     return out.take();
 }
 
 RowRequest unpack_rows(std::span<std::byte const> bytes) {
-    ByteReader in{bytes, "a message with paths"};
-    RowRequest request;
-    request.first = in.get<std::int32_t>();
-    request.last = in.get<std::int32_t>();
-    if (request.first < 0 || request.last < request.first || static_cast<std::size_t>(request.last) > bytes.size())
-        in.fail("its rows are out of range");
-    request.pool.resize(static_cast<std::size_t>(request.last));
-    for (Descriptors& member : request.pool) member.path = in.get_all<Tile>(in.get_count(bytes.size()));
+    ByteReader in{bytes, "a message that asks for rows"};
+    auto const request = in.get<RowRequest>();
+    if (request.first < 0 || request.last < request.first) in.fail("its rows are out of range");
     in.expect_end();
     return request;
 }
 
 Bytes pack_distances(int first, int last, DistanceMatrix const& matrix) {
     ByteWriter out;
-    for (int i = first; i < last; ++i)
-        for (int j = 0; j < i; ++j) out.put(matrix(i, j));
+    out.put_all(matrix.rows(first, last));
     return out.take();
 }
 
 void unpack_distances(std::span<std::byte const> bytes, int first, int last, DistanceMatrix& matrix) {
     ByteReader in{bytes, "a message with distances"};
-    for (int i = first; i < last; ++i)
-        for (int j = 0; j < i; ++j) matrix.set(i, j, in.get<double>());
+    in.get_into(matrix.rows(first, last));
     in.expect_end();
 }
 

@@ -4,33 +4,49 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace lore {
 
 DistanceMatrix DistanceMatrix::select(std::span<int const> members) const {
+    // In the order in which the members' rows lie here, so that each is read through once.
+    std::vector<int> order(members.size());   // places among the chosen
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return members[a] < members[b]; });
     DistanceMatrix chosen(static_cast<int>(members.size()));
-    double* out = chosen.values_.data();
-    for (int const i : members) {
-        double const* const row = values_.data() + index(i, 0);
-        for (int const j : members) *out++ = row[j];
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        double const* const distances = row(members[order[k]]);
+        for (std::size_t m = 0; m < k; ++m) chosen.set(order[k], order[m], distances[members[order[m]]]);
     }
     return chosen;
 }
 
-DistanceMatrix DistanceMatrix::extended(int count) const {
-    DistanceMatrix longer(size_ + count);
-    for (int i = 0; i < size_; ++i)
-        std::copy_n(values_.data() + index(i, 0), size_, longer.values_.data() + longer.index(i, 0));
-    return longer;
+DistanceMatrix DistanceMatrix::extended(int count, DistanceMatrix spare) const {
+    spare.size_ = size_ + count;
+    spare.values_.resize(pairs_before(spare.size_));
+    std::fill(std::copy(values_.begin(), values_.end(), spare.values_.begin()), spare.values_.end(), 0.0);
+    return spare;
 }
 
 std::vector<double> DistanceMatrix::means() const {
-    // Row by row into all sums at once: the matrix is symmetric, so each sum still runs in pool order, and the compiler
-    // adds many of them side by side.
+    // Rows in order: when row j is reached, the sum of member j takes it first, and later rows add one value each, so
+    // that each sum runs in pool order. A row's own sum is a chain of additions; a block of rows keeps several under
+    // way.
+    constexpr int block = 8;
     std::vector<double> sums(static_cast<std::size_t>(size_), 0.0);
-    for (int j = 0; j < size_; ++j) {
-        double const* const row = values_.data() + index(j, 0);
-        for (int i = 0; i < size_; ++i) sums[i] += row[i];
+    for (int first = 0; first < size_; first += block) {
+        double own[block] = {};
+        double const* rows[block];
+        for (int k = 0; k < block; ++k) rows[k] = row(std::min(first + k, size_ - 1));
+        for (int i = 0; i < first; ++i)
+            for (int k = 0; k < block; ++k) own[k] += rows[k][i];
+        for (int j = first; j < std::min(first + block, size_); ++j) {
+            double const* const distances = row(j);
+            double sum = own[j - first];
+            for (int i = first; i < j; ++i) sum += distances[i];
+            sums[j] = sum;
+            for (int i = 0; i < j; ++i) sums[i] += distances[i];
+        }
     }
     for (double& sum : sums) sum /= size_;
     return sums;

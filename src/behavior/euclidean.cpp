@@ -22,7 +22,8 @@ public:
         for (int i = first; i < count_; ++i) {
             for (int c = 0; c < coordinates_; ++c) point[c] = coordinate(i, c);
             kernel.squares(point.data(), columns_.data(), coordinates_, count_, i, squares.data());
-            for (int j = 0; j < i; ++j) matrix.set(i, j, std::sqrt(squares[j]));
+            double* const row = matrix.row(i);
+            for (int j = 0; j < i; ++j) row[j] = std::sqrt(squares[j]);
         }
     }
 

@@ -71,9 +71,8 @@ public:
             for (std::size_t word = 0; word < words_; ++word) count_stretch(start, word);
     }
 
-    std::uint32_t operator()(int i, int j) const {
-        return sums_[(static_cast<std::size_t>(i) - first_) * pool_.size() + static_cast<std::size_t>(j)];
-    }
+    /// Of row i against members 0 .. i-1.
+    std::uint32_t const* row(int i) const { return &sums_[(static_cast<std::size_t>(i) - first_) * pool_.size()]; }
 
 private:
     /// The channels of one word of every step, over the stretch of time that begins with step `start`.
@@ -159,22 +158,30 @@ void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, i
         assert(d->channels() == pool[0]->channels());
         steps.push_back(steps_of(*d));
     }
-    std::size_t const longest = *std::max_element(steps.begin(), steps.end());
+    auto const [shortest, longest_of_all] = std::minmax_element(steps.begin(), steps.end());
+    std::size_t const longest = *longest_of_all;
+    bool const all_alike = *shortest == longest && longest > 0;
     DifferenceCounts const differences(pool, first, longest);
     std::vector<std::vector<std::uint32_t>> ones(pool.size());   // only of members that live longer than another
     for (int i = first; i < last; ++i) {
+        std::uint32_t const* const counts = differences.row(i);
+        double* const row = matrix.row(i);
+        if (all_alike) {   // the usual case, many divisions at a time
+            double const bits = static_cast<double>(longest * bits_per_step);
+            for (int j = 0; j < i; ++j) row[j] = static_cast<double>(counts[j]) / bits;
+            continue;
+        }
         for (int j = 0; j < i; ++j) {
             int const outliving = steps[i] >= steps[j] ? i : j;
             std::size_t const length = std::max(steps[i], steps[j]), common = std::min(steps[i], steps[j]);
-            std::size_t count = differences(i, j);
+            std::size_t count = counts[j];
             // After the end of the shorter, the longer was compared with zeros; by definition all bits differ there.
             if (length != common) {
                 std::vector<std::uint32_t>& before = ones[outliving];
                 if (before.empty()) before = ones_before(*pool[outliving]);
                 count = count - (before[length] - before[common]) + (length - common) * bits_per_step;
             }
-            matrix.set(i, j,
-                       length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step));
+            row[j] = length == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(length * bits_per_step);
         }
     }
 }

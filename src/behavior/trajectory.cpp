@@ -138,10 +138,11 @@ void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first
         }
     }
     for (int i = first; i < last; ++i) {
+        double* const row = matrix.row(i);
         for (int j = 0; j < i; ++j) {
             auto const [low, high] = std::pair{std::min(distinct.place[i], distinct.place[j]),
                                                std::max(distinct.place[i], distinct.place[j])};
-            matrix.set(i, j, low == high ? 0.0 : row_of(high)[low] / static_cast<double>(tiles_per_side));
+            row[j] = low == high ? 0.0 : row_of(high)[low] / static_cast<double>(tiles_per_side);
         }
     }
 }

@@ -1,20 +1,33 @@
 #include "distance_farm.h"
 
-#include <lore/archive/messages.h>
 #include <lore/core/error.h>
 #include <lore/core/stopwatch.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace lore {
 
 namespace {
 
-constexpr int least_rows_to_share = 32;   ///< below, sending costs more than measuring
-constexpr int ranges_a_rank = 4;          ///< more would even out better, but each message carries the paths it needs
-constexpr int ranges_held = 2;            ///< by a worker: the one it works on and the next
+/// Below, sending costs more than measuring.
+int least_rows_to_share(DistanceKind kind) {
+    switch (kind) {
+    case DistanceKind::trajectory: return 32;
+    case DistanceKind::hamming: return 256;
+    default: return std::numeric_limits<int>::max();   // a pair takes a few nanoseconds
+    }
+}
 
-/// Boundaries of row ranges with about equally many pairs (i, j), j < i.
+/// Each rank hands a pool on to two others, so that none sends it to all.
+void hand_on(Post& post, int rank, int ranks, int number, Bytes const& pool) {
+    for (int const to : {2 * rank + 1, 2 * rank + 2})
+        if (to < ranks) post.send(to, MessageKind::pool, number, pool);
+}
+
+/// Boundaries of at most `parts` row ranges with about equally many pairs (i, j), j < i. None is empty.
 std::vector<int> equal_areas(int first, int last, int parts) {
     std::vector<int> bounds{first};
     auto const pairs_below = [](int row) { return static_cast<double>(row) * (row - 1) / 2; };
@@ -28,78 +41,37 @@ std::vector<int> equal_areas(int first, int last, int parts) {
     return bounds;
 }
 
-/// One measurement on its way through all ranks.
-class SharedRows {
-public:
-    SharedRows(FarmState& state, std::span<Descriptors const* const> pool, int known, DistanceMatrix& matrix)
-        : state_(state), pool_(pool), matrix_(matrix),
-          bounds_(equal_areas(known, static_cast<int>(pool.size()), ranges_a_rank * state.ranks())),
-          held_(static_cast<std::size_t>(state.ranks()), 0) {}
-
-    void measure() {
-        Stopwatch watch;
-        while (done_ < ranges()) {
-            while (auto message = state_.post.receive(kinds)) take(*message);
-            hand_out();
-            if (next_ < ranges()) {
-                measure_rows(DistanceKind::trajectory, pool_, first(next_), last(next_), matrix_);
-                ++next_;
-                ++done_;
-            } else if (done_ < ranges()) {
-                state_.times.distances += watch.lap();
-                Message const message = state_.post.await(kinds);
-                state_.times.waiting += watch.lap();
-                take(message);
-            }
-        }
-        state_.times.distances += watch.lap();
-    }
-
-private:
-    static constexpr MessageKind kinds[]{MessageKind::distances, MessageKind::failure};
-
-    int ranges() const { return static_cast<int>(bounds_.size()) - 1; }
-    int first(int range) const { return bounds_[static_cast<std::size_t>(range)]; }
-    int last(int range) const { return bounds_[static_cast<std::size_t>(range) + 1]; }
-
-    /// First every worker gets one range, then a second one as long as that leaves one to rank 0.
-    void hand_out() {
-        for (int most = 1; most <= ranges_held; ++most)
-            for (int worker = 1; worker < state_.ranks(); ++worker) {
-                if (ranges() - next_ <= (most > 1 ? 1 : 0)) return;
-                int& held = held_[static_cast<std::size_t>(worker)];
-                if (held >= most) continue;
-                state_.post.send(worker, MessageKind::rows, next_, pack_rows(first(next_), last(next_), pool_));
-                ++held;
-                ++next_;
-            }
-    }
-
-    void take(Message const& message) {
+void measure_everywhere(FarmState& state, int number, DistanceKind kind, std::span<Descriptors const* const> pool,
+                        int known, DistanceMatrix& matrix) {
+    std::vector<int> const bounds = equal_areas(known, static_cast<int>(pool.size()), state.ranks());
+    int const ranks = static_cast<int>(bounds.size()) - 1;   // that take part, rank 0 with the first range
+    Stopwatch watch;
+    hand_on(state.post, 0, ranks, number, pack_pool(kind, ranks, pool));
+    for (int worker = 1; worker < ranks; ++worker)
+        state.post.send(worker, MessageKind::rows, number, pack_rows({number, bounds[worker], bounds[worker + 1]}));
+    state.post.flush();   // a long message moves only while both ends attend to it
+    measure_rows(kind, pool, bounds[0], bounds[1], matrix);
+    state.times.distances += watch.lap();
+    MessageKind const kinds[]{MessageKind::distances, MessageKind::failure};
+    for (int left = ranks - 1; left > 0; --left) {
+        Message const message = state.post.await(kinds);
+        state.times.waiting += watch.lap();
         if (message.kind == MessageKind::failure)
             throw Error(fmt::format("measuring distances failed on rank {}", message.sender), text_of(message),
                         "Resume the run.");
-        unpack_distances(message.payload, first(message.unit), last(message.unit), matrix_);
-        --held_[static_cast<std::size_t>(message.sender)];
-        ++done_;
+        unpack_distances(message.payload, bounds[message.sender], bounds[message.sender + 1], matrix);
+        state.times.distances += watch.lap();
     }
-
-    FarmState& state_;
-    std::span<Descriptors const* const> pool_;
-    DistanceMatrix& matrix_;
-    std::vector<int> bounds_;   ///< of the ranges
-    std::vector<int> held_;     ///< ranges by each worker, at work or waiting
-    int next_ = 0, done_ = 0;   ///< ranges
-};
+}
 
 }   // namespace
 
 void DistanceFarm::measure(DistanceKind kind, std::span<Descriptors const* const> pool, int known,
                            DistanceMatrix& matrix) {
     int const size = static_cast<int>(pool.size());
-    bool const share = state_.ranks() > 1 && kind == DistanceKind::trajectory && size - known >= least_rows_to_share;
+    bool const share = state_.ranks() > 1 && size - known >= least_rows_to_share(kind);
     try {
-        if (share) return SharedRows{state_, pool, known, matrix}.measure();
+        if (share) return measure_everywhere(state_, ++pools_, kind, pool, known, matrix);
     } catch (...) {
         state_.give_up();
         throw;
@@ -109,13 +81,25 @@ void DistanceFarm::measure(DistanceKind kind, std::span<Descriptors const* const
     state_.times.distances += watch.lap();
 }
 
-void measure_for_rank_0(Post& post, Message const& message, DistanceMatrix& scratch) {
+void DistanceWorker::take_pool(Message const& message) {
+    unpack_pool(message.payload, pool_);
+    number_ = message.unit;
+    hand_on(post_, rank_, pool_.ranks, number_, message.payload);
+}
+
+void DistanceWorker::measure(Message const& message) {
     RowRequest const request = unpack_rows(message.payload);
-    std::vector<Descriptors const*> pool;
-    for (Descriptors const& member : request.pool) pool.push_back(&member);
-    if (scratch.size() < request.last) scratch = DistanceMatrix{request.last};
-    measure_rows(DistanceKind::trajectory, pool, request.first, request.last, scratch);
-    post.send(0, MessageKind::distances, message.unit, pack_distances(request.first, request.last, scratch));
+    MessageKind const kinds[]{MessageKind::pool};
+    while (number_ < request.pool) take_pool(post_.await(kinds));
+    if (number_ != request.pool || request.last > static_cast<int>(pool_.members.size()))
+        throw Error("a message between ranks is damaged", "it asks for rows that its pool does not have",
+                    "Check that all ranks run the same build.");
+    std::vector<Descriptors const*> members;
+    for (Descriptors const& member : pool_.members) members.push_back(&member);
+    int const size = static_cast<int>(members.size());
+    if (matrix_.size() < size) matrix_ = DistanceMatrix{size};
+    measure_rows(pool_.kind, members, request.first, request.last, matrix_);
+    post_.send(0, MessageKind::distances, message.unit, pack_distances(request.first, request.last, matrix_));
 }
 
 }   // namespace lore

@@ -2,13 +2,13 @@
 
 #include "farm_state.h"
 
+#include <lore/archive/messages.h>
 #include <lore/behavior/distance_measurer.h>
 
 namespace lore {
 
-/// Measures on all ranks (Farm::distances): ranges of rows of about equal area, one more than it works on held by each
-/// worker, the rest taken by rank 0 and by the worker that is ready first. Only trajectory distances are shared; the
-/// others take less time than it takes to send the descriptors.
+/// Measures on all ranks (Farm::distances): all are given the pool and, rank 0 included, a range of rows, of about
+/// equal area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough.
 class DistanceFarm : public DistanceMeasurer {
 public:
     explicit DistanceFarm(FarmState& state) : state_(state) {}
@@ -17,9 +17,26 @@ public:
 
 private:
     FarmState& state_;
+    int pools_ = 0;   ///< shared so far: the number of the last one
 };
 
-/// A worker's part: measures the rows of one message and sends them back. `scratch` is kept from call to call.
-void measure_for_rank_0(Post&, Message const&, DistanceMatrix& scratch);
+/// A worker's part.
+class DistanceWorker {
+public:
+    DistanceWorker(Post& post, int rank) : post_(post), rank_(rank) {}
+
+    /// Hands the pool on to other ranks and keeps it until the next one comes.
+    void take_pool(Message const&);
+    /// Measures the rows of one message, waiting for their pool if another rank has not handed it on yet, and sends
+    /// them back.
+    void measure(Message const&);
+
+private:
+    Post& post_;
+    int rank_;
+    int number_ = 0;   ///< of the pool; 0: none has come
+    ComparedPool pool_;
+    DistanceMatrix matrix_;   ///< kept from call to call
+};
 
 }   // namespace lore

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cstring>
+#include <span>
 #include <thread>
+#include <utility>
 
 namespace lore {
 
@@ -14,7 +16,8 @@ constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
 constexpr int polls_before_sleeping = 4000;          ///< longer than rank 0 takes between two generations
 constexpr std::chrono::microseconds sleep{20};       ///< with the kernel's slack about 80
 
-struct MessageHeader {
+/// Behind the payload, which therefore never moves.
+struct Trailer {
     std::uint32_t mark;
     std::int32_t kind;
     std::int64_t unit;
@@ -36,13 +39,13 @@ void Post::forget_sent() {
     }
 }
 
-void Post::send(int to, MessageKind kind, int unit, std::span<std::byte const> payload) {
+void Post::send(int to, MessageKind kind, int unit, Bytes payload) {
     forget_sent();
     Outgoing& message = outgoing_.emplace_back();
-    MessageHeader const header{message_mark, static_cast<std::int32_t>(kind), unit, payload.size()};
-    message.bytes.resize(sizeof header + payload.size());
-    std::memcpy(message.bytes.data(), &header, sizeof header);
-    if (!payload.empty()) std::memcpy(message.bytes.data() + sizeof header, payload.data(), payload.size());
+    Trailer const trailer{message_mark, static_cast<std::int32_t>(kind), unit, payload.size()};
+    auto const bytes = std::as_bytes(std::span{&trailer, 1});
+    message.bytes = std::move(payload);
+    message.bytes.insert(message.bytes.end(), bytes.begin(), bytes.end());
     MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, static_cast<int>(kind), comm_,
               &message.request);
 }
@@ -60,14 +63,15 @@ std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
         MPI_Get_count(&status, MPI_BYTE, &length);
         Bytes bytes(static_cast<std::size_t>(length));
         MPI_Mrecv(bytes.data(), length, MPI_BYTE, &matched, &status);
-        MessageHeader header{};
-        if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
-        if (header.mark != message_mark || header.kind != static_cast<std::int32_t>(kind) ||
-            header.length != bytes.size() - sizeof header)
-            throw Error("a message between ranks is damaged", "its header does not fit",
+        Trailer trailer{};
+        if (bytes.size() >= sizeof trailer)
+            std::memcpy(&trailer, bytes.data() + bytes.size() - sizeof trailer, sizeof trailer);
+        if (trailer.mark != message_mark || trailer.kind != static_cast<std::int32_t>(kind) ||
+            trailer.length != bytes.size() - sizeof trailer)
+            throw Error("a message between ranks is damaged", "its trailer does not fit",
                         "Check that all ranks run the same build.");
-        bytes.erase(bytes.begin(), bytes.begin() + sizeof header);
-        return Message{kind, status.MPI_SOURCE, static_cast<int>(header.unit), std::move(bytes)};
+        bytes.resize(bytes.size() - sizeof trailer);
+        return Message{kind, status.MPI_SOURCE, static_cast<int>(trailer.unit), std::move(bytes)};
     }
     return std::nullopt;
 }

@@ -19,9 +19,10 @@ inline constexpr int pulses_a_look = 8;
 enum class MessageKind : int {
     evaluate = 1,   ///< genomes; unit: the ticket of the first, the others follow
     evaluated,      ///< evaluations, each with its ticket
-    rows,           ///< a range of rows of a distance matrix; unit: its number
+    pool,           ///< what a distance compares of all members; unit: the number of the pool
+    rows,           ///< a range of rows of a pool's distance matrix; unit: the number of the pool
     distances,      ///< the same, measured
-    failure,        ///< unit: the ticket of an evaluation that threw, or the number of a range; payload: the reason
+    failure,        ///< unit: the ticket of an evaluation that threw, or the number of a pool; payload: the reason
     stop,           ///< leave serve()
     times           ///< what a worker spent its time on: a RankTimes
 };
@@ -37,7 +38,7 @@ inline std::string text_of(Message const& message) {
     return {reinterpret_cast<char const*>(message.payload.data()), message.payload.size()};
 }
 
-/// Sends and receives Lore's byte messages: a small header (magic, kind, unit, length), then the payload, in one MPI
+/// Sends and receives Lore's byte messages: the payload, then a small trailer (magic, kind, unit, length), in one MPI
 /// message. Without a communicator nothing ever arrives.
 class Post {
 public:
@@ -47,7 +48,7 @@ public:
     ~Post();
 
     /// Returns at once; the bytes are kept until they have gone.
-    void send(int to, MessageKind, int unit, std::span<std::byte const> payload);
+    void send(int to, MessageKind, int unit, Bytes payload);
     /// A message of one of these kinds, from any rank, if one is there. Throws Error if it is not one of Lore's.
     std::optional<Message> receive(std::span<MessageKind const>);
     /// Waits for one, giving the processor to others when it takes long.

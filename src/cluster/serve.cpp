@@ -7,13 +7,16 @@
 #include <lore/core/stopwatch.h>
 
 #include <deque>
+#include <string_view>
 
 namespace lore {
 
 namespace {
 
-std::span<std::byte const> bytes_of(std::string const& text) {
-    return std::as_bytes(std::span{text.data(), text.size()});
+template <class Items>
+Bytes bytes_of(Items const& items) {
+    auto const bytes = std::as_bytes(std::span{items});
+    return {bytes.begin(), bytes.end()};
 }
 
 /// Fills this rank's lanes with the genomes that rank 0 sends, also while they run, and sends back their evaluations.
@@ -68,8 +71,8 @@ void serve(Communicator const& communicator, EvaluationContext context) {
     GuardedEvaluation lanes{std::move(context), communicator.rank()};
     Post post{communicator.handle().comm};
     RankTimes times;
-    DistanceMatrix scratch;
-    MessageKind const kinds[]{MessageKind::evaluate, MessageKind::rows, MessageKind::stop};
+    DistanceWorker distances{post, communicator.rank()};
+    MessageKind const kinds[]{MessageKind::pool, MessageKind::evaluate, MessageKind::rows, MessageKind::stop};
     while (true) {
         Stopwatch watch;
         Message const message = post.await(kinds);
@@ -84,15 +87,16 @@ void serve(Communicator const& communicator, EvaluationContext context) {
             times.evaluation += watch.lap();
         } else {
             try {
-                measure_for_rank_0(post, message, scratch);
+                if (message.kind == MessageKind::pool) distances.take_pool(message);
+                else distances.measure(message);
             } catch (std::exception const& error) {
-                post.send(0, MessageKind::failure, message.unit, bytes_of(error.what()));
+                post.send(0, MessageKind::failure, message.unit, bytes_of(std::string_view{error.what()}));
             }
             times.distances += watch.lap();
         }
     }
     times.processor = processor_seconds();
-    post.send(0, MessageKind::times, 0, std::as_bytes(std::span{&times, 1}));
+    post.send(0, MessageKind::times, 0, bytes_of(std::span{&times, 1}));
     post.flush();
 }
 

@@ -187,6 +187,7 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
                       DistanceMeasurer& measurer, EvolutionState state, GenerationObserver const& observer,
                       std::span<Genome const> origin) {
     int const first = state.population.members.empty() ? 0 : state.population.generation + 1;
+    DistanceMatrix spare;   // the last pool's
     for (int generation = first; generation <= config.generations; ++generation) {
         Stopwatch watch;
 
@@ -199,7 +200,7 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
         bool const takes_turns = config.use_shaping && config.shaping.use == ShapingUse::distance;
         bool const shaping_serves = takes_turns && shaping_serves_at(seed, generation, config.distance_schedule);
         DistanceKind const kind = distance_at(seed, generation, config.distance_schedule);
-        PoolDistances distances{state.population, static_cast<int>(born.size()), kind};
+        PoolDistances distances{state.population, static_cast<int>(born.size()), kind, std::move(spare)};
         std::vector<Individual> children = evaluate(born, evaluator, distances, by_share(config));
 
         Population pool = join(std::move(state.population), std::move(children));
@@ -215,6 +216,7 @@ EvolutionState evolve(EvolutionConfig const& config, std::uint64_t seed, Evaluat
 
         Ranking const ranking = rank(pool, config, seed, shaping_serves);
         state.population = survivors(pool, ranking.survivors);
+        spare = std::move(pool.distances);
         sign(state.signature, state.population);
         selection_seconds += watch.lap();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
 namespace lore {
 
@@ -11,19 +12,25 @@ namespace {
 /// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave
 /// more to the end. While this rank is idle, few are enough.
 constexpr int enough = 96, enough_when_idle = 16;
+/// Of a larger pool all distances are left to the end, where the ranks share them: one rank would have too much to do,
+/// and a matrix in another order costs time.
+constexpr int largest_pool_measured_early = 1000;
 
 }   // namespace
 
-PoolDistances::PoolDistances(Population const& parents, int children, DistanceKind kind)
+PoolDistances::PoolDistances(Population const& parents, int children, DistanceKind kind, DistanceMatrix spare)
     : kind_(kind), parents_(static_cast<int>(parents.members.size())),
       measured_(parents.distance_kind == kind ? parents.distances.size() : 0) {
-    matrix_ = measured_ > 0 ? parents.distances.extended(children) : DistanceMatrix(parents_ + children);
+    DistanceMatrix const none;
+    DistanceMatrix const& known = measured_ > 0 ? parents.distances : none;
+    matrix_ = known.extended(parents_ + children - known.size(), std::move(spare));
     order_.resize(static_cast<std::size_t>(parents_));
     std::iota(order_.begin(), order_.end(), 0);
     for (Individual const& parent : parents.members) shown_.push_back(parent.descriptors.get());
 }
 
 void PoolDistances::completed(int child, Evaluation const& evaluation) {
+    if (matrix_.size() > largest_pool_measured_early) return;
     order_.push_back(parents_ + child);
     shown_.push_back(&evaluation.descriptors);
     measure_if_waiting(enough);

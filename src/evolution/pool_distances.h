@@ -15,7 +15,8 @@ namespace lore {
 /// changed.
 class PoolDistances : public CompletionListener {
 public:
-    PoolDistances(Population const& parents, int children, DistanceKind);
+    /// `spare`: a matrix no longer needed, whose memory is taken.
+    PoolDistances(Population const& parents, int children, DistanceKind, DistanceMatrix spare = {});
 
     /// Called at most once for each child.
     void completed(int child, Evaluation const&) override;

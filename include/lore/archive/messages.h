@@ -24,16 +24,25 @@ struct Delivery {
     friend bool operator==(Delivery const&, Delivery const&) = default;
 };
 /// One of 4000 steps and up to 16 channels takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before;
-/// at most 8.4 kB, and 8 kB for each further 16 channels.
+/// at most 9 kB, and 9 kB for each further 16 channels.
 Bytes pack_deliveries(std::span<Delivery const>);
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
 
-/// Rows [first, last) of a matrix of trajectory distances, and the paths of pool members 0 .. last-1 that they need.
-struct RowRequest {
-    int first = 0, last = 0;
-    std::vector<Descriptors> pool;   ///< paths only
+/// What distances of a kind compare of a pool's members; other fields of the descriptors stay empty.
+struct ComparedPool {
+    DistanceKind kind{};
+    int ranks = 0;   ///< that measure it: the first so many, rank 0 among them
+    std::vector<Descriptors> members;
 };
-Bytes pack_rows(int first, int last, std::span<Descriptors const* const> pool);
+Bytes pack_pool(DistanceKind, int ranks, std::span<Descriptors const* const> members);
+/// Takes the memory of what was in the pool before: of large ones, new memory would cost as much as unpacking.
+void unpack_pool(std::span<std::byte const>, ComparedPool&);
+
+/// Rows [first, last) of the distance matrix of a pool, which was sent before under this number.
+struct RowRequest {
+    int pool = 0, first = 0, last = 0;
+};
+Bytes pack_rows(RowRequest const&);
 RowRequest unpack_rows(std::span<std::byte const>);
 
 /// The distances (i, j), j < i, of those rows, row after row.

@@ -2,6 +2,8 @@
 
 #include <lore/behavior/distances.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,30 +11,36 @@ namespace lore {
 
 /// All mutual distances of a pool, kept from one generation to the next for the survivors.
 ///
-/// Square, symmetric, zero diagonal; row-major [i][j].
+/// Symmetric with a zero diagonal, so that only pairs (i, j) with j < i are kept, row after row: the rows of a range
+/// lie side by side, and a larger pool begins with the values of the smaller.
 class DistanceMatrix {
 public:
     DistanceMatrix() = default;
-    explicit DistanceMatrix(int size) : size_(size), values_(static_cast<std::size_t>(size) * size, 0.0) {}
+    explicit DistanceMatrix(int size) : size_(size), values_(pairs_before(size), 0.0) {}
 
     int size() const { return size_; }
-    double operator()(int i, int j) const { return values_[index(i, j)]; }
-    void set(int i, int j, double d) {
-        values_[index(i, j)] = d;
-        values_[index(j, i)] = d;
-    }
+    double operator()(int i, int j) const { return i == j ? 0.0 : row(std::max(i, j))[std::min(i, j)]; }
+    /// Precondition: i != j.
+    void set(int i, int j, double d) { row(std::max(i, j))[std::min(i, j)] = d; }
+    /// The distances of member i to members 0 .. i-1.
+    double* row(int i) { return values_.data() + pairs_before(i); }
+    double const* row(int i) const { return values_.data() + pairs_before(i); }
+    /// Rows [first, last), one after the other.
+    std::span<double> rows(int first, int last) { return {row(first), row(last)}; }
+    std::span<double const> rows(int first, int last) const { return {row(first), row(last)}; }
 
-    /// The matrix of the chosen members, in that order.
+    /// The matrix of the chosen members, in that order. Precondition: each is chosen once.
     DistanceMatrix select(std::span<int const> members) const;
-    /// The matrix of the members followed by `count` newcomers, whose distances are still 0.
-    DistanceMatrix extended(int count) const;
+    /// The matrix of the members followed by `count` newcomers, whose distances are still 0. Takes the memory of a
+    /// matrix that is no longer needed: of large ones, new memory would cost more than what is written there.
+    DistanceMatrix extended(int count, DistanceMatrix spare) const;
     /// Mean distance of every member to the whole pool, itself included: BD(x). Each sum runs in pool order.
     std::vector<double> means() const;
 
     friend bool operator==(DistanceMatrix const&, DistanceMatrix const&) = default;
 
 private:
-    std::size_t index(int i, int j) const { return static_cast<std::size_t>(i) * size_ + j; }
+    static std::size_t pairs_before(int row) { return static_cast<std::size_t>(row) * (std::max(row, 1) - 1) / 2; }
 
     int size_ = 0;
     std::vector<double> values_;

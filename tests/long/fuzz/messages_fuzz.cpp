@@ -10,7 +10,7 @@ void read_input(std::span<std::byte const> input) {
     if (input.empty()) return;
     auto const message = input.subspan(1);
     fuzz::accepts([&] {
-        switch (std::to_integer<int>(input[0]) % 4) {
+        switch (std::to_integer<int>(input[0]) % 5) {
         case 0: {
             std::vector<Genome> const genomes = unpack_genomes(message);
             std::vector<Genome const*> pointers;
@@ -20,6 +20,11 @@ void read_input(std::span<std::byte const> input) {
         }
         case 1: unpack_deliveries(pack_deliveries(unpack_deliveries(message))); break;
         case 2: unpack_rows(message); break;
+        case 4: {
+            ComparedPool pool;
+            unpack_pool(message, pool);
+            break;
+        }
         case 3: {
             DistanceMatrix matrix{8};
             unpack_distances(message, 3, 8, matrix);

@@ -87,24 +87,39 @@ TEST(Messages, carry_bits_of_many_channels_that_repeat_in_little_space) {
             }
             Bytes const bytes = pack_deliveries({&delivery, 1});
             EXPECT_EQ(unpack_deliveries(bytes).at(0), delivery) << channels << " " << steps;
-            EXPECT_LT(bytes.size(), 1000u);
+            // An entropy a channel, a byte for 64 words, and at most 12 bytes for a change.
+            EXPECT_LT(bytes.size(), 100u + 8 * channels + descriptors.channel_bits.size() / 64 + 14 * 12);
         }
 }
 
-TEST(Messages, carry_rows_of_distances) {
+TEST(Messages, carry_what_a_distance_compares_and_the_rows_of_its_matrix) {
     auto const genomes = mutated_genomes(12);
     auto const evaluations = PretendedEvaluator{4000}.evaluate(pointers_to(genomes));
     std::vector<Descriptors const*> pool;
     for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
-    DistanceMatrix expected{12}, here{12}, there{12};
-    measure_rows(DistanceKind::trajectory, pool, 3, 9, expected);
-    RowRequest const request = unpack_rows(pack_rows(3, 9, pool));
-    std::vector<Descriptors const*> carried;
-    for (Descriptors const& member : request.pool) carried.push_back(&member);
-    ASSERT_EQ(carried.size(), 9u);
-    measure_rows(DistanceKind::trajectory, carried, request.first, request.last, there);
-    unpack_distances(pack_distances(3, 9, there), 3, 9, here);
-    EXPECT_EQ(here, expected);
+    ComparedPool carried;
+    for (int kind = 0; kind < distance_kinds; ++kind) {
+        DistanceMatrix expected{12}, here{12}, there{12};
+        measure_rows(static_cast<DistanceKind>(kind), pool, 3, 9, expected);
+        unpack_pool(pack_pool(static_cast<DistanceKind>(kind), 5, pool), carried);   // where another pool was
+        RowRequest const request = unpack_rows(pack_rows({7, 3, 9}));
+        EXPECT_EQ(carried.ranks, 5);
+        EXPECT_EQ(request.pool, 7);
+        measure_rows(carried.kind, pointers_to(carried.members), request.first, request.last, there);
+        unpack_distances(pack_distances(3, 9, there), 3, 9, here);
+        EXPECT_EQ(here, expected) << kind;
+    }
+}
+
+TEST(Messages, carry_nothing_that_a_distance_does_not_compare) {
+    Descriptors member;
+    member.outcome = {1, 2};
+    member.path = {Tile{3, 4}};
+    Descriptors const* const pool[]{&member};
+    ComparedPool carried;
+    unpack_pool(pack_pool(DistanceKind::trajectory, 2, pool), carried);
+    EXPECT_EQ(carried.members.at(0).path, member.path);
+    EXPECT_TRUE(carried.members.at(0).outcome.empty());
 }
 
 TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {

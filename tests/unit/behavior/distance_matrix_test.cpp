@@ -67,10 +67,35 @@ TEST(DistanceMatrix, selects_in_the_given_order) {
 }
 
 TEST(DistanceMatrix, keeps_the_old_distances_when_newcomers_join) {
-    DistanceMatrix const longer = three_by_three().extended(2);
-    EXPECT_EQ(longer.size(), 5);
-    EXPECT_EQ(longer(1, 2), 6.0);
-    EXPECT_EQ(longer(4, 2), 0.0);
+    DistanceMatrix used(7);
+    used.set(6, 2, 9.0);
+    for (DistanceMatrix const& spare : {DistanceMatrix{}, DistanceMatrix(3), used}) {
+        DistanceMatrix const longer = three_by_three().extended(2, spare);
+        EXPECT_EQ(longer.size(), 5);
+        EXPECT_EQ(longer(1, 2), 6.0);
+        for (int i = 0; i < 5; ++i) EXPECT_EQ(longer(4, i), 0.0) << i;
+    }
+}
+
+TEST(DistanceMatrix, sums_and_selects_as_by_definition_for_any_size) {
+    Stream rng{12, Purpose::test};
+    for (int const size : {1, 2, 7, 8, 9, 16, 17, 40}) {
+        DistanceMatrix matrix(size);
+        for (int i = 0; i < size; ++i)
+            for (int j = 0; j < i; ++j) matrix.set(i, j, rng.uniform() * 1000);
+        std::vector<int> members;
+        for (int i = 0; i < size; ++i)
+            if (i % 3 != 1) members.insert(members.begin() + static_cast<std::ptrdiff_t>(members.size() / 2), i);
+        DistanceMatrix const chosen = matrix.select(members);
+        std::vector<double> const means = matrix.means();
+        for (int i = 0; i < size; ++i) {
+            double sum = 0;
+            for (int j = 0; j < size; ++j) sum += matrix(i, j);
+            EXPECT_EQ(means[i], sum / size) << i << " of " << size;
+        }
+        for (int i = 0; i < chosen.size(); ++i)
+            for (int j = 0; j < chosen.size(); ++j) EXPECT_EQ(chosen(i, j), matrix(members[i], members[j]));
+    }
 }
 
 TEST(MeasureRows, equals_the_definition_to_the_bit_for_pools_of_any_size) {

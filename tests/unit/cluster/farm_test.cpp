@@ -79,16 +79,17 @@ TEST(Farm, notifies_of_each_evaluation_once_where_others_are_at_work) {
 
 TEST(Farm, measures_every_distance_as_one_rank_does) {
     Served served;
-    auto const genomes = founders(120, 0);
+    int const size = 300;   // so many that Hamming distances are shared
+    auto const genomes = founders(size, 0);
     auto const pointers = pointers_to(genomes);
     auto const evaluations = evaluate_batch(context(), pointers);
     std::vector<Descriptors const*> pool;
     for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
     for (DistanceKind kind :
          {DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory, DistanceKind::entropy})
-        for (int known : {0, 1, 60, 119, 120}) {
-            DistanceMatrix expected{120}, matrix{120};
-            measure_rows(kind, pool, known, 120, expected);
+        for (int known : {0, 1, 40, 270, size - 1, size}) {
+            DistanceMatrix expected{size}, matrix{size};
+            measure_rows(kind, pool, known, size, expected);
             served.farm.distances().measure(kind, pool, known, matrix);
             EXPECT_EQ(matrix, expected) << name(kind) << " " << known;
         }
@@ -111,6 +112,21 @@ TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
     }
     ::unsetenv("LORE_TEST_DELAY");
     call_workers('0');
+}
+
+TEST(Farm, evolves_a_large_population_to_the_signature_of_a_single_process) {
+    EvolutionConfig config = small_evolution(2);
+    config.population = config.founders = 520;   // so many that no distance is measured while others are under way
+    auto const go_on = [](GenerationReport const&) { return true; };
+    SerialEvaluator alone{context()};
+    for (DistanceKind kind : {DistanceKind::hamming, DistanceKind::trajectory}) {
+        config.distance_schedule.distances = {kind};
+        auto const expected = evolve(config, 3, alone, {}, go_on).signature.value();
+        Served served;
+        EXPECT_EQ(evolve(config, 3, served.farm.evaluator(), served.farm.distances(), {}, go_on).signature.value(),
+                  expected)
+            << name(kind);
+    }
 }
 
 TEST(Farm, accounts_for_the_time_of_every_rank) {
