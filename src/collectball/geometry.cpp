@@ -83,7 +83,9 @@ void compile_geometry(Arena& arena) {
     g.lights.push_back(arena.switch_position);
 
     RobotConfig const& robot = arena.robot;
-    g.surroundings = survey(arena.width, arena.height, g.walls, g.first_door, g.lights, robot.radius + robot.max_speed);
+    g.width = arena.width;
+    g.height = arena.height;
+    g.touch_distance = robot.radius + robot.max_speed;
     g.radius_squared = robot.radius * robot.radius;
     g.reach_squared = arena.reach * arena.reach;
     g.basket_radius_squared = arena.basket_radius * arena.basket_radius;
@@ -92,6 +94,12 @@ void compile_geometry(Arena& arena) {
     float const cosine = math::sincos(robot.field_of_view * 0.5f).cos;
     g.cos_squared_half_view = cosine * cosine;
     arena.geometry = std::move(geometry);
+}
+
+Surroundings const& Geometry::surroundings() const {
+    std::call_once(surveyed_,
+                   [this] { surroundings_ = survey(width, height, walls, first_door, lights, touch_distance); });
+    return surroundings_;
 }
 
 namespace {
@@ -111,7 +119,7 @@ bool light_visible(Geometry const& g, int light, float x, float y, bool door_ope
 }
 
 std::uint32_t visible_lights(Geometry const& g, std::uint32_t wanted, float x, float y, bool door_open) {
-    Surroundings::Cell const cell = g.surroundings.at(x, y, door_open);
+    Surroundings::Cell const cell = g.surroundings().at(x, y, door_open);
     std::uint32_t visible = wanted & (cell.clear_lights() | cell.mixed_lights());
     for (std::uint32_t doubtful = wanted & cell.mixed_lights(); doubtful != 0; doubtful &= doubtful - 1) {
         int const light = std::countr_zero(doubtful);

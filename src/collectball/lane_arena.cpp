@@ -47,11 +47,12 @@ LaneArenaLayout::LaneArenaLayout(Arena const& arena) {
     view_.switch_mask = g.switch_mask;
     view_.ball_mask = (1u << arena.task.ball_positions.size()) - 1u;
     static_assert(sizeof(Surroundings::Cell) == sizeof(std::uint64_t));
-    view_.cells = g.surroundings.cells.data();
-    view_.columns = g.surroundings.columns;
-    view_.rows = g.surroundings.rows;
-    view_.open_offset = static_cast<int>(g.surroundings.open_offset);
-    view_.cells_per_u = g.surroundings.cells_per_u;
+    Surroundings const& surroundings = g.surroundings();
+    view_.cells = surroundings.cells.data();
+    view_.columns = surroundings.columns;
+    view_.rows = surroundings.rows;
+    view_.open_offset = static_cast<int>(surroundings.open_offset);
+    view_.cells_per_u = surroundings.cells_per_u;
     view_.always_asked = arena.reach <= arena.robot.radius ? 0 : view_.ball_mask | view_.switch_mask;
     view_.radius = arena.robot.radius;
     view_.radius_squared = g.radius_squared;

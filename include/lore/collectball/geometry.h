@@ -4,6 +4,7 @@
 #include <lore/collectball/surroundings.h>
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace lore {
@@ -17,12 +18,20 @@ struct Geometry {
     /// Balls, then basket lights, then the switch; bit i of every light mask is lights[i].
     std::vector<Point> lights;
     std::uint32_t basket_mask = 0, switch_mask = 0;   ///< balls are the low bits, as in WorldState::balls_mask
-    Surroundings surroundings;
-
     float radius_squared = 0, reach_squared = 0, basket_radius_squared = 0;   ///< [u^2]
     float inverse_wheel_distance = 0;                                         ///< [1/u]
     float inverse_range = 0;                                                  ///< of the range sensors [1/u]
     float cos_squared_half_view = 0;                                          ///< of the light sensors
+
+    /// What a robot can see and touch from each cell. Worked out when it is first asked for: that takes 10 ms, and most
+    /// who open an arena simulate nothing in it.
+    Surroundings const& surroundings() const;
+
+    float width = 0, height = 0, touch_distance = 0;   ///< what survey() asks for [u]
+
+private:
+    mutable std::once_flag surveyed_;
+    mutable Surroundings surroundings_;
 };
 
 /// Fills in Arena::geometry; to be called again after any change of the other members. parse_arena has done it.

@@ -123,7 +123,7 @@ TEST(Surroundings, name_every_wall_that_a_step_may_touch) {
                        y = static_cast<float>(rng.uniform(0, arena.height));
             auto const way = static_cast<float>(rng.uniform(0, arena.robot.max_speed));
             auto const direction = math::sincos(static_cast<float>(rng.uniform(-3, 3)));
-            WallSet const touchable = g.surroundings.at(x, y, open).touchable;
+            WallSet const touchable = g.surroundings().at(x, y, open).touchable;
             int const walls = open ? g.first_door : static_cast<int>(g.walls.size());
             for (int wall = 0; wall < walls; ++wall) {
                 if (!mechanics::touches(g.walls[static_cast<std::size_t>(wall)], x + way * direction.cos,
@@ -151,7 +151,7 @@ TEST(VisitWalls, reaches_every_wall_of_the_set_in_order) {
 
 TEST(VisibleLights, seldom_need_the_exact_test) {
     Arena const arena = load_arena("collectball", "source");
-    auto const& cells = arena.geometry->surroundings.cells;
+    auto const& cells = arena.geometry->surroundings().cells;
     std::size_t mixed = 0;
     for (Surroundings::Cell const& cell : cells) mixed += static_cast<std::size_t>(std::popcount(cell.mixed));
     double const share = static_cast<double>(mixed) / static_cast<double>(cells.size() * arena.geometry->lights.size());
