@@ -17,6 +17,7 @@ concept Flat = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 /// Appends values as they lie in memory.
 class ByteWriter {
 public:
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     template <Flat T>
     void put(T const& value) {
         append(&value, sizeof value);
@@ -80,6 +81,7 @@ public:
         if (count > most) fail("a count is out of range");
         return static_cast<std::size_t>(count);
     }
+    std::size_t left() const { return rest_.size(); }
     bool at_end() const { return rest_.empty(); }
     void expect_end() const {
         if (!at_end()) fail("more follows than expected");

@@ -16,7 +16,7 @@ namespace lore {
 namespace {
 
 constexpr std::size_t most_batch = 1u << 20;
-constexpr std::size_t longest_evaluation = 1u << 24;            ///< words; runs could claim any number of them
+constexpr std::size_t longest_evaluation = 1u << 24;            ///< words
 constexpr std::size_t most_words = (most_channels + 15) / 16;   ///< a step
 
 using Words = std::vector<std::uint16_t>;   ///< Descriptors::channel_bits
@@ -63,7 +63,7 @@ void repeat(Words& words, std::size_t first, std::size_t last, std::size_t in_a_
 void get_words(ByteReader& in, Words& words) {
     std::size_t const in_a_step = in.get<std::uint8_t>();
     if (in_a_step == 0 || in_a_step > most_words) in.fail("steps of no world");
-    words.resize(in.get_count(longest_evaluation));
+    words.resize(in.get_count(std::min(longest_evaluation, block_words * in.left())));
     for (std::size_t first = 0; first < words.size(); first += block_words) {
         std::size_t const count = std::min(block_words, words.size() - first);
         std::uint64_t const which = in.get_varint();
@@ -123,6 +123,14 @@ void visit_compared(DistanceKind kind, AnyDescriptors& descriptors, Visit const&
     case DistanceKind::trajectory: return visit(descriptors.path);
     default: return for_each_field(descriptors, visit);
     }
+}
+
+/// What the fast distances rely on.
+bool comparable(Descriptors const& a, Descriptors const& b) {
+    auto const is_tile = [](Tile tile) { return tile.x < tiles_per_side && tile.y < tiles_per_side; };
+    std::size_t const words = static_cast<std::size_t>(std::max(1, a.words()));
+    return a.outcome.size() == b.outcome.size() && a.channels() == b.channels() && a.channel_bits.size() % words == 0 &&
+           std::all_of(a.path.begin(), a.path.end(), is_tile);
 }
 
 }   // namespace
@@ -196,8 +204,10 @@ void unpack_pool(std::span<std::byte const> bytes, ComparedPool& pool) {
     pool.ranks = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
     if (pool.kind != before) pool.members.clear();
     pool.members.resize(in.get_count(std::min(most_batch, bytes.size())));
-    for (Descriptors& member : pool.members)
+    for (Descriptors& member : pool.members) {
         visit_compared(pool.kind, member, [&](auto& field) { get_field(in, field); });
+        if (!comparable(member, pool.members[0])) in.fail("robots of different worlds");
+    }
     in.expect_end();
 }
 
@@ -217,6 +227,7 @@ RowRequest unpack_rows(std::span<std::byte const> bytes) {
 
 Bytes pack_distances(int first, int last, DistanceMatrix const& matrix) {
     ByteWriter out;
+    out.reserve(matrix.rows(first, last).size_bytes() + room_for_trailer);
     out.put_all(matrix.rows(first, last));
     return out.take();
 }

@@ -21,6 +21,10 @@ int least_rows_to_share(DistanceKind kind) {
     }
 }
 
+Error unfit(std::string const& why) {
+    return {"a message between ranks is damaged", why, "Check that all ranks run the same build."};
+}
+
 /// Each rank hands a pool on to two others, so that none sends it to all.
 void hand_on(Post& post, int rank, int ranks, int number, Bytes const& pool) {
     for (int const to : {2 * rank + 1, 2 * rank + 2})
@@ -59,6 +63,8 @@ void measure_everywhere(FarmState& state, int number, DistanceKind kind, std::sp
         if (message.kind == MessageKind::failure)
             throw Error(fmt::format("measuring distances failed on rank {}", message.sender), text_of(message),
                         "Resume the run.");
+        if (message.unit != number || message.sender >= ranks)
+            throw unfit("it answers for rows that no rank was given");
         unpack_distances(message.payload, bounds[message.sender], bounds[message.sender + 1], matrix);
         state.times.distances += watch.lap();
     }
@@ -84,7 +90,9 @@ void DistanceFarm::measure(DistanceKind kind, std::span<Descriptors const* const
 void DistanceWorker::take_pool(Message const& message) {
     unpack_pool(message.payload, pool_);
     number_ = message.unit;
+    if (pool_.ranks > ranks_) throw unfit("it names ranks that there are not");
     hand_on(post_, rank_, pool_.ranks, number_, message.payload);
+    post_.flush();   // or those behind it wait until this rank has measured
 }
 
 void DistanceWorker::measure(Message const& message) {
@@ -92,12 +100,14 @@ void DistanceWorker::measure(Message const& message) {
     MessageKind const kinds[]{MessageKind::pool};
     while (number_ < request.pool) take_pool(post_.await(kinds));
     if (number_ != request.pool || request.last > static_cast<int>(pool_.members.size()))
-        throw Error("a message between ranks is damaged", "it asks for rows that its pool does not have",
-                    "Check that all ranks run the same build.");
+        throw unfit("it asks for rows that its pool does not have");
     std::vector<Descriptors const*> members;
     for (Descriptors const& member : pool_.members) members.push_back(&member);
     int const size = static_cast<int>(members.size());
-    if (matrix_.size() < size) matrix_ = DistanceMatrix{size};
+    if (matrix_.size() < size) {
+        matrix_ = {};   // so that there are never two
+        matrix_ = DistanceMatrix{size};
+    }
     measure_rows(pool_.kind, members, request.first, request.last, matrix_);
     post_.send(0, MessageKind::distances, message.unit, pack_distances(request.first, request.last, matrix_));
 }

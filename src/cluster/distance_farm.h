@@ -7,8 +7,8 @@
 
 namespace lore {
 
-/// Measures on all ranks (Farm::distances): all are given the pool and, rank 0 included, a range of rows, of about
-/// equal area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough.
+/// Measures on all ranks (Farm::distances): each is given the pool and a range of rows, rank 0 too, of about equal
+/// area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough.
 class DistanceFarm : public DistanceMeasurer {
 public:
     explicit DistanceFarm(FarmState& state) : state_(state) {}
@@ -23,7 +23,7 @@ private:
 /// A worker's part.
 class DistanceWorker {
 public:
-    DistanceWorker(Post& post, int rank) : post_(post), rank_(rank) {}
+    DistanceWorker(Post& post, int rank, int ranks) : post_(post), rank_(rank), ranks_(ranks) {}
 
     /// Hands the pool on to other ranks and keeps it until the next one comes.
     void take_pool(Message const&);
@@ -33,7 +33,7 @@ public:
 
 private:
     Post& post_;
-    int rank_;
+    int rank_, ranks_;
     int number_ = 0;   ///< of the pool; 0: none has come
     ComparedPool pool_;
     DistanceMatrix matrix_;   ///< kept from call to call

@@ -1,9 +1,13 @@
 #include "post.h"
 
+#include <lore/archive/messages.h>
 #include <lore/core/error.h>
+
+#include <fmt/format.h>
 
 #include <chrono>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <thread>
 #include <utility>
@@ -16,13 +20,14 @@ constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
 constexpr int polls_before_sleeping = 4000;          ///< longer than rank 0 takes between two generations
 constexpr std::chrono::microseconds sleep{20};       ///< with the kernel's slack about 80
 
-/// Behind the payload, which therefore never moves.
+/// Behind the payload, which therefore need not move.
 struct Trailer {
     std::uint32_t mark;
     std::int32_t kind;
     std::int64_t unit;
     std::uint64_t length;
 };
+static_assert(sizeof(Trailer) <= room_for_trailer);
 
 }   // namespace
 
@@ -41,11 +46,15 @@ void Post::forget_sent() {
 
 void Post::send(int to, MessageKind kind, int unit, Bytes payload) {
     forget_sent();
-    Outgoing& message = outgoing_.emplace_back();
     Trailer const trailer{message_mark, static_cast<std::int32_t>(kind), unit, payload.size()};
     auto const bytes = std::as_bytes(std::span{&trailer, 1});
-    message.bytes = std::move(payload);
-    message.bytes.insert(message.bytes.end(), bytes.begin(), bytes.end());
+    payload.insert(payload.end(), bytes.begin(), bytes.end());
+    if (payload.size() > std::numeric_limits<int>::max())
+        throw Error("a message between ranks is too long",
+                    fmt::format("MPI takes 2 GiB, it has {} bytes", payload.size()),
+                    "Take a smaller population, or one rank.");
+    outgoing_.push_back({std::move(payload), MPI_REQUEST_NULL});
+    Outgoing& message = outgoing_.back();
     MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, static_cast<int>(kind), comm_,
               &message.request);
 }

@@ -71,7 +71,7 @@ void serve(Communicator const& communicator, EvaluationContext context) {
     GuardedEvaluation lanes{std::move(context), communicator.rank()};
     Post post{communicator.handle().comm};
     RankTimes times;
-    DistanceWorker distances{post, communicator.rank()};
+    DistanceWorker distances{post, communicator.rank(), communicator.size()};
     MessageKind const kinds[]{MessageKind::pool, MessageKind::evaluate, MessageKind::rows, MessageKind::stop};
     while (true) {
         Stopwatch watch;

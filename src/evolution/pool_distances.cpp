@@ -12,8 +12,8 @@ namespace {
 /// Children are measured together: fewer would cost more each (Hamming looks for what many share), more would leave
 /// more to the end. While this rank is idle, few are enough.
 constexpr int enough = 96, enough_when_idle = 16;
-/// Of a larger pool all distances are left to the end, where the ranks share them: one rank would have too much to do,
-/// and a matrix in another order costs time.
+/// Of a larger pool all distances are left to the end, where the ranks share those that take long: one rank would have
+/// too much to do, and a matrix in another order costs time.
 constexpr int largest_pool_measured_early = 1000;
 
 }   // namespace
@@ -30,13 +30,17 @@ PoolDistances::PoolDistances(Population const& parents, int children, DistanceKi
 }
 
 void PoolDistances::completed(int child, Evaluation const& evaluation) {
-    if (matrix_.size() > largest_pool_measured_early) return;
+    if (!early()) return;
     order_.push_back(parents_ + child);
     shown_.push_back(&evaluation.descriptors);
     measure_if_waiting(enough);
 }
 
-void PoolDistances::idle() { measure_if_waiting(enough_when_idle); }
+void PoolDistances::idle() {
+    if (early()) measure_if_waiting(enough_when_idle);
+}
+
+bool PoolDistances::early() const { return matrix_.size() <= largest_pool_measured_early; }
 
 void PoolDistances::measure_if_waiting(int least) {
     int const present = static_cast<int>(shown_.size());

@@ -25,6 +25,7 @@ public:
     DistanceMatrix finish(Population const& pool, DistanceMeasurer&) &&;
 
 private:
+    bool early() const;   ///< or all are left to finish()
     void measure_if_waiting(int least);
 
     DistanceKind kind_;

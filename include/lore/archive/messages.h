@@ -13,6 +13,9 @@ namespace lore {
 /// processors of one byte order, so that numbers travel as they lie in memory; Readers throw Error on bytes that no
 /// writer wrote.
 
+/// Left free behind long messages, so that who sends them can add a trailer without moving them [bytes].
+inline constexpr std::size_t room_for_trailer = 32;
+
 /// Precondition: all have one interface.
 Bytes pack_genomes(std::span<Genome const* const>);
 std::vector<Genome> unpack_genomes(std::span<std::byte const>);
@@ -35,7 +38,7 @@ struct ComparedPool {
     std::vector<Descriptors> members;
 };
 Bytes pack_pool(DistanceKind, int ranks, std::span<Descriptors const* const> members);
-/// Takes the memory of what was in the pool before: of large ones, new memory would cost as much as unpacking.
+/// Bits take the memory of those of the pool before: of many, new memory would cost as much as unpacking.
 void unpack_pool(std::span<std::byte const>, ComparedPool&);
 
 /// Rows [first, last) of the distance matrix of a pool, which was sent before under this number.

@@ -116,12 +116,14 @@ void messages(Seeds const& seeds, Population const& population) {
     }
     seeds.write("messages", "genomes", 0, pack_genomes(genomes));
     seeds.write("messages", "deliveries", 1, pack_deliveries(deliveries));
-    seeds.write("messages", "rows", 2, pack_rows({1, 1, static_cast<int>(pool.size())}));
     for (int k = 0; k < distance_kinds; ++k) {
         auto const kind = static_cast<DistanceKind>(k);
-        seeds.write("messages", "pool_" + std::string{name(kind)}, 4, pack_pool(kind, 2, pool));
+        seeds.write("messages", "pool_" + std::string{name(kind)}, 2, pack_pool(kind, 2, pool));
     }
-    seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
+    Bytes rows = pack_rows({1, 3, 8});
+    Bytes const distances = pack_distances(3, 8, DistanceMatrix{8});
+    rows.insert(rows.end(), distances.begin(), distances.end());
+    seeds.write("messages", "rows_and_distances", 3, rows);
 }
 
 void crates(Seeds const& seeds) {

@@ -10,7 +10,7 @@ void read_input(std::span<std::byte const> input) {
     if (input.empty()) return;
     auto const message = input.subspan(1);
     fuzz::accepts([&] {
-        switch (std::to_integer<int>(input[0]) % 5) {
+        switch (std::to_integer<int>(input[0]) % 4) {
         case 0: {
             std::vector<Genome> const genomes = unpack_genomes(message);
             std::vector<Genome const*> pointers;
@@ -19,15 +19,19 @@ void read_input(std::span<std::byte const> input) {
             break;
         }
         case 1: unpack_deliveries(pack_deliveries(unpack_deliveries(message))); break;
-        case 2: unpack_rows(message); break;
-        case 4: {
+        case 2: {
             ComparedPool pool;
             unpack_pool(message, pool);
+            std::vector<Descriptors const*> members;
+            for (Descriptors const& member : pool.members) members.push_back(&member);
+            unpack_pool(pack_pool(pool.kind, pool.ranks, members), pool);   // where the same was
             break;
         }
         case 3: {
             DistanceMatrix matrix{8};
-            unpack_distances(message, 3, 8, matrix);
+            RowRequest const rows = unpack_rows(message.first(std::min(message.size(), sizeof(RowRequest))));
+            if (rows.last <= matrix.size())
+                unpack_distances(message.subspan(sizeof(RowRequest)), rows.first, rows.last, matrix);
             break;
         }
         }

@@ -42,7 +42,7 @@ TEST(Messages, carry_genomes_and_evaluations_unchanged) {
         auto const deliveries = deliveries_of(genomes, 4000);
         Bytes const bytes = pack_deliveries(deliveries);
         EXPECT_EQ(unpack_deliveries(bytes), deliveries);
-        // The pretended bits change at every step: written out, they are no longer than in memory.
+        // The pretended bits change at every step: they take hardly more than in memory.
         if (count > 0) { EXPECT_LT(bytes.size() / static_cast<std::size_t>(count), 9000u); }
     }
 }
@@ -111,6 +111,23 @@ TEST(Messages, carry_what_a_distance_compares_and_the_rows_of_its_matrix) {
     }
 }
 
+TEST(Messages, carry_one_pool_after_another) {
+    ComparedPool carried;
+    for (int const steps : {4000, 70, 1000})
+        for (Interface const interface : {Interface{12, 3}, {19, 2}, {1, 1}}) {
+            auto const genomes = mutated_genomes(7, interface);
+            auto const evaluations = PretendedEvaluator{steps}.evaluate(pointers_to(genomes));
+            std::vector<Descriptors const*> pool;
+            for (Evaluation const& evaluation : evaluations) pool.push_back(&evaluation.descriptors);
+            unpack_pool(pack_pool(DistanceKind::hamming, 2, pool), carried);
+            ASSERT_EQ(carried.members.size(), pool.size());
+            for (std::size_t k = 0; k < pool.size(); ++k) {
+                EXPECT_EQ(carried.members[k].channel_bits, pool[k]->channel_bits) << steps;
+                EXPECT_EQ(carried.members[k].channels(), pool[k]->channels());
+            }
+        }
+}
+
 TEST(Messages, carry_nothing_that_a_distance_does_not_compare) {
     Descriptors member;
     member.outcome = {1, 2};
@@ -130,4 +147,43 @@ TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
         EXPECT_THROW(unpack_genomes(std::span{request}.first(length)), Error);
     for (std::size_t length = 0; length < result.size(); ++length)
         EXPECT_THROW(unpack_deliveries(std::span{result}.first(length)), Error);
+
+    auto const evaluations = PretendedEvaluator{100}.evaluate(pointers_to(genomes));
+    Descriptors const* const members[]{&evaluations[0].descriptors, &evaluations[1].descriptors};
+    DistanceMatrix matrix{5};
+    Bytes const rows = pack_rows({1, 2, 5}), distances = pack_distances(2, 5, matrix);
+    for (std::size_t length = 0; length < rows.size(); ++length)
+        EXPECT_THROW(unpack_rows(std::span{rows}.first(length)), Error);
+    for (std::size_t length = 0; length < distances.size(); ++length)
+        EXPECT_THROW(unpack_distances(std::span{distances}.first(length), 2, 5, matrix), Error);
+    ComparedPool carried;
+    for (int kind = 0; kind < distance_kinds; ++kind) {
+        Bytes const pool = pack_pool(static_cast<DistanceKind>(kind), 2, members);
+        for (std::size_t length = 0; length < pool.size(); ++length)
+            EXPECT_THROW(unpack_pool(std::span{pool}.first(length), carried), Error) << kind;
+    }
+    EXPECT_THROW(unpack_rows(pack_rows({1, 5, 2})), Error);
+    EXPECT_THROW(unpack_pool(Bytes{std::byte{distance_kinds}, std::byte{2}, std::byte{0}}, carried), Error);
+}
+
+TEST(Messages, answer_robots_that_cannot_be_compared_with_an_error) {
+    Descriptors robot, other;
+    robot.entropies = {0.5, 0.5};
+    robot.channel_bits = {1, 2};
+    robot.outcome = {1};
+    robot.path = {Tile{0, 11}};
+    ComparedPool carried;
+    auto const unpacks = [&](DistanceKind kind) {
+        Descriptors const* const members[]{&robot, &other};
+        unpack_pool(pack_pool(kind, 2, members), carried);
+    };
+    other = robot;
+    for (int kind = 0; kind < distance_kinds; ++kind) unpacks(static_cast<DistanceKind>(kind));
+    other.entropies = {0.5};
+    EXPECT_THROW(unpacks(DistanceKind::entropy), Error);
+    EXPECT_THROW(unpacks(DistanceKind::hamming), Error);
+    other.outcome = {};
+    EXPECT_THROW(unpacks(DistanceKind::adhoc), Error);
+    other.path = {Tile{12, 0}};
+    EXPECT_THROW(unpacks(DistanceKind::trajectory), Error);
 }

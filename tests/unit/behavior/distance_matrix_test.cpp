@@ -68,12 +68,16 @@ TEST(DistanceMatrix, selects_in_the_given_order) {
 
 TEST(DistanceMatrix, keeps_the_old_distances_when_newcomers_join) {
     DistanceMatrix used(7);
-    used.set(6, 2, 9.0);
+    used.set(3, 1, 9.0);
+    used.set(4, 2, 9.0);
     for (DistanceMatrix const& spare : {DistanceMatrix{}, DistanceMatrix(3), used}) {
         DistanceMatrix const longer = three_by_three().extended(2, spare);
         EXPECT_EQ(longer.size(), 5);
         EXPECT_EQ(longer(1, 2), 6.0);
-        for (int i = 0; i < 5; ++i) EXPECT_EQ(longer(4, i), 0.0) << i;
+        for (int i = 0; i < 5; ++i) {
+            EXPECT_EQ(longer(3, i), 0.0) << i;
+            EXPECT_EQ(longer(4, i), 0.0) << i;
+        }
     }
 }
 

@@ -93,6 +93,7 @@ TEST(Farm, measures_every_distance_as_one_rank_does) {
             served.farm.distances().measure(kind, pool, known, matrix);
             EXPECT_EQ(matrix, expected) << name(kind) << " " << known;
         }
+    for (RankTimes const& rank : served.farm.stop()) EXPECT_GT(rank.distances, 0);
 }
 
 TEST(Farm, evolves_to_the_signature_of_a_single_process_whatever_the_delays) {
@@ -119,13 +120,15 @@ TEST(Farm, evolves_a_large_population_to_the_signature_of_a_single_process) {
     config.population = config.founders = 520;   // so many that no distance is measured while others are under way
     auto const go_on = [](GenerationReport const&) { return true; };
     SerialEvaluator alone{context()};
-    for (DistanceKind kind : {DistanceKind::hamming, DistanceKind::trajectory}) {
-        config.distance_schedule.distances = {kind};
+    config.distance_schedule.distances = {DistanceKind::hamming, DistanceKind::trajectory};
+    for (int const period : {1, 9}) {   // with a change of distance, and without
+        config.distance_schedule.period = period;
         auto const expected = evolve(config, 3, alone, {}, go_on).signature.value();
         Served served;
         EXPECT_EQ(evolve(config, 3, served.farm.evaluator(), served.farm.distances(), {}, go_on).signature.value(),
                   expected)
-            << name(kind);
+            << period;
+        for (RankTimes const& rank : served.farm.stop()) EXPECT_GT(rank.distances, 0);
     }
 }
 
