@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <functional>
+#include <limits>
 #include <numeric>
 
 namespace lore {
@@ -66,9 +68,10 @@ public:
           kernel_(kernel_for(active_isa(), LORE_KERNELS(hamming))(true)),
           planes_(pool.size() * static_cast<std::size_t>(std::min(channels_, channels_of_word)) * sizeof(Plane) /
                   sizeof(CacheLine)),
-          classes_(pool.size()), sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
+          classes_(pool.size()), short_sums_((pool.size() - first_) * pool.size()), terms_(pool.size()) {
         for (std::size_t start = 0; start < longest; start += steps_per_plane)
             for (std::size_t word = 0; word < words_; ++word) count_stretch(start, word);
+        widen();
     }
 
     /// Of row i against members 0 .. i-1.
@@ -79,6 +82,9 @@ private:
     void count_stretch(std::size_t start, std::size_t word) {
         std::size_t const members = pool_.size();
         int const channels = std::min(channels_ - static_cast<int>(word) * channels_of_word, channels_of_word);
+        int const most = channels * steps_per_plane;
+        if (in_short_sums_ + most > std::numeric_limits<std::uint16_t>::max()) widen();
+        in_short_sums_ += most;
         Plane* const planes = reinterpret_cast<Plane*>(planes_.data());   // [channel][member]
         for (std::size_t member = 0; member < members; ++member)
             kernel_.split(words_from(*pool_[member], start, word), planes[member].data(),
@@ -120,8 +126,16 @@ private:
             kernel_.differing(planes[representatives[k]].data(), others, static_cast<int>(groups), counts_.data());
             kernel_.spread(counts_.data(), class_of.data(), static_cast<int>(planes.size()), terms_.data());
             for (std::size_t const i : rows_of_[k])
-                kernel_.add(terms_.data(), static_cast<int>(i), &sums_[(i - first_) * planes.size()]);
+                kernel_.add(terms_.data(), static_cast<int>(i), &short_sums_[(i - first_) * planes.size()]);
         }
+    }
+
+    /// Adds the short sums to the sums.
+    void widen() {
+        if (sums_.empty()) sums_.assign(short_sums_.begin(), short_sums_.end());
+        else std::transform(sums_.begin(), sums_.end(), short_sums_.begin(), sums_.begin(), std::plus<std::uint32_t>{});
+        std::fill(short_sums_.begin(), short_sums_.end(), std::uint16_t{0});
+        in_short_sums_ = 0;
     }
 
     std::span<Descriptors const* const> pool_;
@@ -134,7 +148,10 @@ private:
     PlaneClasses classes_;
     std::vector<std::vector<std::size_t>> rows_of_;   ///< by class
     std::vector<std::uint32_t> sums_;                 ///< [row - first][member]
-    std::vector<std::uint32_t> counts_, terms_;
+    std::vector<std::uint16_t> short_sums_;           ///< the same, of the last stretches; through them all counts go
+    int in_short_sums_ = 0;                           ///< the most that any of them can be
+    std::vector<std::uint32_t> counts_;
+    std::vector<std::uint16_t> terms_;
 };
 
 /// Set bits before each step, and among all: a sum that every pair of evaluations of different lengths asks for.

@@ -121,21 +121,24 @@ void split_up_to(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_
     split_channels<most>(bits, planes, stride);
 }
 
-void spread(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint32_t* terms) {
+void spread(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint16_t* terms) {
     using Indices = Lanes<std::int32_t, LORE_LANES>;
+    using Terms = Lanes<std::uint16_t, LORE_LANES>;
     auto const* const table = reinterpret_cast<std::int32_t const*>(counts);
     int j = 0;
     for (; j + LORE_LANES <= size; j += LORE_LANES)
-        lanes::store(terms + j, lanes::gather(table, lanes::load<Indices>(class_of + j)));
-    for (; j < size; ++j) terms[j] = counts[class_of[j]];
+        lanes::store(terms + j,
+                     __builtin_convertvector(lanes::gather(table, lanes::load<Indices>(class_of + j)), Terms));
+    for (; j < size; ++j) terms[j] = static_cast<std::uint16_t>(counts[class_of[j]]);
 }
 
-void add_terms(std::uint32_t const* terms, int size, std::uint32_t* sums) {
-    using Counts = Lanes<std::uint32_t, LORE_LANES>;
+void add_terms(std::uint16_t const* terms, int size, std::uint16_t* sums) {
+    constexpr int width = 2 * LORE_LANES;
+    using Counts = Lanes<std::uint16_t, width>;
     int j = 0;
-    for (; j + LORE_LANES <= size; j += LORE_LANES)
+    for (; j + width <= size; j += width)
         lanes::store(sums + j, lanes::load<Counts>(sums + j) + lanes::load<Counts>(terms + j));
-    for (; j < size; ++j) sums[j] += terms[j];
+    for (; j < size; ++j) sums[j] = static_cast<std::uint16_t>(sums[j] + terms[j]);
 }
 
 }   // namespace

@@ -21,10 +21,10 @@ struct HammingKernel {
     void (*split)(std::uint16_t const* bits, std::uint64_t* planes, std::ptrdiff_t stride, int channels);
     /// Differing bits between a plane and each of `groups` * lanes others, which lie [group][word][lane].
     void (*differing)(std::uint64_t const* plane, std::uint64_t const* others, int groups, std::uint32_t* counts);
-    /// terms[j] = counts[class_of[j]]
-    void (*spread)(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint32_t* terms);
+    /// terms[j] = counts[class_of[j]]. In 16 bits, of which sums of a stretch need no more: half of the memory.
+    void (*spread)(std::uint32_t const* counts, std::int32_t const* class_of, int size, std::uint16_t* terms);
     /// sums[j] += terms[j]
-    void (*add)(std::uint32_t const* terms, int size, std::uint32_t* sums);
+    void (*add)(std::uint16_t const* terms, int size, std::uint16_t* sums);
 };
 
 /// `by_instruction`: counts with AVX-512's instruction for it, where the processor has it.

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace lore;
 using lore::test::pointers_to;
 
@@ -131,6 +133,24 @@ TEST(MeasureRows, equals_the_definition_for_evaluations_of_full_length) {
     std::vector<Descriptors> pool;
     for (int i = 0; i < 40; ++i) pool.push_back(random_behavior(rng, 4000));
     expect_fast_equals_plain(pool, all_kinds);
+}
+
+TEST(MeasureRows, counts_more_bits_than_sixteen_bits_can_hold) {
+    Stream rng{15, Purpose::test};
+    for (int const channels : {3, 15, 16, 33})
+        for (int const steps : {4096, 4097, 9000, 30000}) {
+            std::vector<Descriptors> pool;
+            for (int i = 0; i < 3; ++i) pool.push_back(random_behavior(rng, steps, {0, channels}));
+            std::ranges::fill(pool[0].channel_bits, std::uint16_t{0});
+            Descriptors const& ones = pool[1];
+            for (std::size_t k = 0; k < ones.channel_bits.size(); ++k) {
+                int const in_word =
+                    std::min(channels - 16 * static_cast<int>(k % static_cast<std::size_t>(ones.words())), 16);
+                pool[1].channel_bits[k] = static_cast<std::uint16_t>((1u << in_word) - 1);
+            }
+            EXPECT_EQ(by_definition(DistanceKind::hamming, pool)(0, 1), 1.0);
+            expect_fast_equals_plain(pool, {DistanceKind::hamming});
+        }
 }
 
 TEST(MeasureRows, equals_the_definition_for_evaluations_of_different_lengths) {
