@@ -58,9 +58,10 @@ public:
     std::vector<T> get_all(std::size_t count) {
         if (count > rest_.size() / sizeof(T)) fail("it ends too early");
         std::vector<T> values(count);
-        if (count != 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
+        get_into(std::span{values});
         return values;
     }
+    /// As many as the span has room for.
     template <Flat T>
     void get_into(std::span<T> values) {
         if (values.size() > rest_.size() / sizeof(T)) fail("it ends too early");

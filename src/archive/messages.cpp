@@ -186,10 +186,10 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
     return deliveries;
 }
 
-Bytes pack_pool(DistanceKind kind, int ranks, std::span<Descriptors const* const> members) {
+Bytes pack_pool(DistanceKind kind, int known, std::span<Descriptors const* const> members) {
     ByteWriter out;
     out.put(kind);
-    out.put_varint(static_cast<std::uint64_t>(ranks));
+    out.put_varint(static_cast<std::uint64_t>(known));
     out.put_varint(members.size());
     for (Descriptors const* member : members)
         visit_compared(kind, *member, [&](auto const& field) { put_field(out, field, member->words()); });
@@ -201,28 +201,16 @@ void unpack_pool(std::span<std::byte const> bytes, ComparedPool& pool) {
     DistanceKind const before = pool.kind;
     pool.kind = in.get<DistanceKind>();
     if (static_cast<int>(pool.kind) >= distance_kinds) in.fail("a distance that there is not");
-    pool.ranks = static_cast<int>(in.get_count(std::numeric_limits<int>::max()));
+    std::size_t const known = in.get_count(most_batch);
     if (pool.kind != before) pool.members.clear();
     pool.members.resize(in.get_count(std::min(most_batch, bytes.size())));
     for (Descriptors& member : pool.members) {
         visit_compared(pool.kind, member, [&](auto& field) { get_field(in, field); });
         if (!comparable(member, pool.members[0])) in.fail("robots of different worlds");
     }
+    if (known > pool.members.size()) in.fail("it knows more robots than there are");
+    pool.known = static_cast<int>(known);
     in.expect_end();
-}
-
-Bytes pack_rows(RowRequest const& request) {
-    ByteWriter out;
-    out.put(request);
-    return out.take();
-}
-
-RowRequest unpack_rows(std::span<std::byte const> bytes) {
-    ByteReader in{bytes, "a message that asks for rows"};
-    auto const request = in.get<RowRequest>();
-    if (request.first < 0 || request.last < request.first) in.fail("its rows are out of range");
-    in.expect_end();
-    return request;
 }
 
 Bytes pack_distances(int first, int last, DistanceMatrix const& matrix) {

@@ -17,7 +17,6 @@ public:
 
 private:
     FarmState& state_;
-    int pools_ = 0;   ///< shared so far: the number of the last one
 };
 
 /// A worker's part.
@@ -25,18 +24,14 @@ class DistanceWorker {
 public:
     DistanceWorker(Post& post, int rank, int ranks) : post_(post), rank_(rank), ranks_(ranks) {}
 
-    /// Hands the pool on to other ranks and keeps it until the next one comes.
-    void take_pool(Message const&);
-    /// Measures the rows of one message, waiting for their pool if another rank has not handed it on yet, and sends
-    /// them back.
+    /// Hands the pool of the message on, measures this rank's rows and sends them to rank 0.
     void measure(Message const&);
 
 private:
     Post& post_;
     int rank_, ranks_;
-    int number_ = 0;   ///< of the pool; 0: none has come
-    ComparedPool pool_;
-    DistanceMatrix matrix_;   ///< kept from call to call
+    ComparedPool pool_;   ///< this and the matrix: kept for their memory
+    DistanceMatrix matrix_;
 };
 
 }   // namespace lore

@@ -19,10 +19,9 @@ inline constexpr int pulses_a_look = 8;
 enum class MessageKind : int {
     evaluate = 1,   ///< genomes; unit: the ticket of the first, the others follow
     evaluated,      ///< evaluations, each with its ticket
-    pool,           ///< what a distance compares of all members; unit: the number of the pool
-    rows,           ///< a range of rows of a pool's distance matrix; unit: the number of the pool
-    distances,      ///< the same, measured
-    failure,        ///< unit: the ticket of an evaluation that threw, or the number of a pool; payload: the reason
+    pool,           ///< what a distance compares of all members; each rank measures its range of rows
+    distances,      ///< these
+    failure,        ///< unit: the ticket of an evaluation that threw, or nothing of a pool; payload: the reason
     stop,           ///< leave serve()
     times           ///< what a worker spent its time on: a RankTimes
 };

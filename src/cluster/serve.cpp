@@ -72,7 +72,7 @@ void serve(Communicator const& communicator, EvaluationContext context) {
     Post post{communicator.handle().comm};
     RankTimes times;
     DistanceWorker distances{post, communicator.rank(), communicator.size()};
-    MessageKind const kinds[]{MessageKind::pool, MessageKind::evaluate, MessageKind::rows, MessageKind::stop};
+    MessageKind const kinds[]{MessageKind::pool, MessageKind::evaluate, MessageKind::stop};
     while (true) {
         Stopwatch watch;
         Message const message = post.await(kinds);
@@ -87,8 +87,7 @@ void serve(Communicator const& communicator, EvaluationContext context) {
             times.evaluation += watch.lap();
         } else {
             try {
-                if (message.kind == MessageKind::pool) distances.take_pool(message);
-                else distances.measure(message);
+                distances.measure(message);
             } catch (std::exception const& error) {
                 post.send(0, MessageKind::failure, message.unit, bytes_of(std::string_view{error.what()}));
             }

@@ -8,7 +8,8 @@
 
 namespace lore {
 
-/// The mutual distances of parents and children, measured while the last children are still being evaluated.
+/// The mutual distances of parents and children: of small pools measured while the last children are still being
+/// evaluated, of large ones afterwards.
 ///
 /// Each child is measured against all that completed before it: the order of completion decides when a pair is
 /// measured, and not its distance. Distances among parents are known from the last generation, unless the distance has

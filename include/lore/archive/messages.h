@@ -13,7 +13,8 @@ namespace lore {
 /// processors of one byte order, so that numbers travel as they lie in memory; Readers throw Error on bytes that no
 /// writer wrote.
 
-/// Left free behind long messages, so that who sends them can add a trailer without moving them [bytes].
+/// Left free behind distances, the longest messages, so that who sends them can add a trailer without moving them
+/// [bytes].
 inline constexpr std::size_t room_for_trailer = 32;
 
 /// Precondition: all have one interface.
@@ -31,24 +32,18 @@ struct Delivery {
 Bytes pack_deliveries(std::span<Delivery const>);
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
 
-/// What distances of a kind compare of a pool's members; other fields of the descriptors stay empty.
+/// A pool whose distances are to be measured, and what distances of this kind compare of its members; other fields of
+/// the descriptors stay empty.
 struct ComparedPool {
     DistanceKind kind{};
-    int ranks = 0;   ///< that measure it: the first so many, rank 0 among them
+    int known = 0;   ///< distances among the first so many members are known
     std::vector<Descriptors> members;
 };
-Bytes pack_pool(DistanceKind, int ranks, std::span<Descriptors const* const> members);
+Bytes pack_pool(DistanceKind, int known, std::span<Descriptors const* const> members);
 /// Bits take the memory of those of the pool before: of many, new memory would cost as much as unpacking.
 void unpack_pool(std::span<std::byte const>, ComparedPool&);
 
-/// Rows [first, last) of the distance matrix of a pool, which was sent before under this number.
-struct RowRequest {
-    int pool = 0, first = 0, last = 0;
-};
-Bytes pack_rows(RowRequest const&);
-RowRequest unpack_rows(std::span<std::byte const>);
-
-/// The distances (i, j), j < i, of those rows, row after row.
+/// The distances (i, j), j < i, of rows [first, last), row after row.
 Bytes pack_distances(int first, int last, DistanceMatrix const&);
 void unpack_distances(std::span<std::byte const>, int first, int last, DistanceMatrix&);
 

@@ -30,7 +30,7 @@ private:
 struct RankTimes {
     double evaluation = 0;
     double distances = 0;   ///< on rank 0 with the listener's time while other ranks evaluate
-    double waiting = 0;     ///< polling for messages, not for a pool's; on rank 0 only while a request is under way
+    double waiting = 0;     ///< polling for messages; on rank 0 only while a request is under way
     double processor = 0;   ///< processor_seconds() as the farm stops
 };
 

@@ -118,12 +118,9 @@ void messages(Seeds const& seeds, Population const& population) {
     seeds.write("messages", "deliveries", 1, pack_deliveries(deliveries));
     for (int k = 0; k < distance_kinds; ++k) {
         auto const kind = static_cast<DistanceKind>(k);
-        seeds.write("messages", "pool_" + std::string{name(kind)}, 2, pack_pool(kind, 2, pool));
+        seeds.write("messages", "pool_" + std::string{name(kind)}, 2, pack_pool(kind, 1, pool));
     }
-    Bytes rows = pack_rows({1, 3, 8});
-    Bytes const distances = pack_distances(3, 8, DistanceMatrix{8});
-    rows.insert(rows.end(), distances.begin(), distances.end());
-    seeds.write("messages", "rows_and_distances", 3, rows);
+    seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
 }
 
 void crates(Seeds const& seeds) {

@@ -24,14 +24,12 @@ void read_input(std::span<std::byte const> input) {
             unpack_pool(message, pool);
             std::vector<Descriptors const*> members;
             for (Descriptors const& member : pool.members) members.push_back(&member);
-            unpack_pool(pack_pool(pool.kind, pool.ranks, members), pool);   // where the same was
+            unpack_pool(pack_pool(pool.kind, pool.known, members), pool);   // where the same was
             break;
         }
         case 3: {
             DistanceMatrix matrix{8};
-            RowRequest const rows = unpack_rows(message.first(std::min(message.size(), sizeof(RowRequest))));
-            if (rows.last <= matrix.size())
-                unpack_distances(message.subspan(sizeof(RowRequest)), rows.first, rows.last, matrix);
+            unpack_distances(message, 3, 8, matrix);
             break;
         }
         }

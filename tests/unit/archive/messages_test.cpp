@@ -102,10 +102,8 @@ TEST(Messages, carry_what_a_distance_compares_and_the_rows_of_its_matrix) {
         DistanceMatrix expected{12}, here{12}, there{12};
         measure_rows(static_cast<DistanceKind>(kind), pool, 3, 9, expected);
         unpack_pool(pack_pool(static_cast<DistanceKind>(kind), 5, pool), carried);   // where another pool was
-        RowRequest const request = unpack_rows(pack_rows({7, 3, 9}));
-        EXPECT_EQ(carried.ranks, 5);
-        EXPECT_EQ(request.pool, 7);
-        measure_rows(carried.kind, pointers_to(carried.members), request.first, request.last, there);
+        EXPECT_EQ(carried.known, 5);
+        measure_rows(carried.kind, pointers_to(carried.members), 3, 9, there);
         unpack_distances(pack_distances(3, 9, there), 3, 9, here);
         EXPECT_EQ(here, expected) << kind;
     }
@@ -134,7 +132,7 @@ TEST(Messages, carry_nothing_that_a_distance_does_not_compare) {
     member.path = {Tile{3, 4}};
     Descriptors const* const pool[]{&member};
     ComparedPool carried;
-    unpack_pool(pack_pool(DistanceKind::trajectory, 2, pool), carried);
+    unpack_pool(pack_pool(DistanceKind::trajectory, 1, pool), carried);
     EXPECT_EQ(carried.members.at(0).path, member.path);
     EXPECT_TRUE(carried.members.at(0).outcome.empty());
 }
@@ -151,9 +149,7 @@ TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
     auto const evaluations = PretendedEvaluator{100}.evaluate(pointers_to(genomes));
     Descriptors const* const members[]{&evaluations[0].descriptors, &evaluations[1].descriptors};
     DistanceMatrix matrix{5};
-    Bytes const rows = pack_rows({1, 2, 5}), distances = pack_distances(2, 5, matrix);
-    for (std::size_t length = 0; length < rows.size(); ++length)
-        EXPECT_THROW(unpack_rows(std::span{rows}.first(length)), Error);
+    Bytes const distances = pack_distances(2, 5, matrix);
     for (std::size_t length = 0; length < distances.size(); ++length)
         EXPECT_THROW(unpack_distances(std::span{distances}.first(length), 2, 5, matrix), Error);
     ComparedPool carried;
@@ -162,7 +158,8 @@ TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
         for (std::size_t length = 0; length < pool.size(); ++length)
             EXPECT_THROW(unpack_pool(std::span{pool}.first(length), carried), Error) << kind;
     }
-    EXPECT_THROW(unpack_rows(pack_rows({1, 5, 2})), Error);
+    EXPECT_THROW(unpack_pool(pack_pool(DistanceKind::adhoc, 3, members), carried), Error)
+        << "more known than there are";
     EXPECT_THROW(unpack_pool(Bytes{std::byte{distance_kinds}, std::byte{2}, std::byte{0}}, carried), Error);
 }
 
