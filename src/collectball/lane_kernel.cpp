@@ -1,6 +1,7 @@
 // The episode's inner loop for LORE_LANES robots at once; compiled once per instruction set (lore_kernel). Formulas are
 // those of collectball/mechanics.h and core/math.h, which the plain episode uses too; here is only their arrangement.
 #include "lane_work.h"
+#include "stillness.h"
 
 #include <lore/collectball/mechanics.h>
 #include <lore/collectball/wall_set.h>
@@ -272,9 +273,25 @@ LORE_INLINE void move(LaneWork& work, int at, F const& left_wheel, F const& righ
     lanes::store(work.bumper_left + at, contact.left);
 }
 
+/// Counts the still steps of all lanes; true if one comes to more than it may with this step.
 template <int vectors>
-void run(LaneWork& work, int first, int last) {
+LORE_INLINE bool some_stood_still(LaneWork& work, int step) {
+    I over{};
+    for (int at = 0; at < vectors * width; at += width) {
+        I const still = stays(lanes::load<F>(work.buffers.x + step * row + at), lanes::load<F>(work.x + at)) &
+                        stays(lanes::load<F>(work.buffers.y + step * row + at), lanes::load<F>(work.y + at)) &
+                        stays(lanes::load<F>(work.theta_before + at), lanes::load<F>(work.theta + at));
+        I const steps = lanes::load<I>(work.still_steps + at) - still;
+        lanes::store(work.still_steps + at, steps);
+        over |= still & (steps == work.stop_when_still + 1);
+    }
+    return lanes::any(over);
+}
+
+template <int vectors>
+int run(LaneWork& work, int first, int last) {
     constexpr int end = vectors * width;
+    bool const counts_still_steps = work.stop_when_still > 0;
     for (int at = 0; at < end; at += width) {
         math::SinCos<F> const heading = math::sincos(lanes::load<F>(work.theta + at));
         lanes::store(work.heading_sin + at, heading.sin);
@@ -295,17 +312,22 @@ void run(LaneWork& work, int first, int last) {
             lanes::store(work.buffers.words + step * row + at, __builtin_convertvector(word, Words));
             act(work, at, collect);
         }
+        if (counts_still_steps)
+            for (int at = 0; at < end; at += width)
+                lanes::store(work.theta_before + at, lanes::load<F>(work.theta + at));
         for (int at = 0; at < end; at += width)
             move(work, at, lanes::load<F>(effectors + effector_place(Channel::left_wheel) * row + at),
                  lanes::load<F>(effectors + effector_place(Channel::right_wheel) * row + at));
+        if (counts_still_steps && some_stood_still<vectors>(work, step)) return step + 1;
     }
+    return last;
 }
 
 }   // namespace
 
-void run_steps(LaneWork& work, int first, int last) {
-    if (work.buffers.vectors == 1) run<1>(work, first, last);
-    else run<lane_vectors>(work, first, last);
+int run_steps(LaneWork& work, int first, int last) {
+    if (work.buffers.vectors == 1) return run<1>(work, first, last);
+    return run<lane_vectors>(work, first, last);
 }
 
 }   // namespace lore::LORE_ISA_NAMESPACE

@@ -64,13 +64,16 @@ struct alignas(64) LaneWork {
     std::int32_t carrying[lane_slots], door_open[lane_slots], switch_lit[lane_slots];
     std::int32_t balls_mask[lane_slots];   ///< WorldState::balls_mask
     std::int32_t switch_timer[lane_slots];
+    std::int32_t still_steps[lane_slots];   ///< of the life; counted where `stop_when_still` is not 0
 
     /// Within a step: heading, the word so far, whether something can be taken or pressed, walls that may be touched.
     float heading_sin[lane_slots], heading_cos[lane_slots];
+    float theta_before[lane_slots];   ///< where still steps are counted
     std::int32_t word[lane_slots], in_reach[lane_slots];
     std::uint32_t touchable[lane_vectors];
 
-    int step;   ///< row of the chunk, for `act`
+    int step;              ///< row of the chunk, for `act`
+    int stop_when_still;   ///< CollectballWorld's
     LaneArena arena;
     LaneBuffers buffers;
 
@@ -80,6 +83,8 @@ struct alignas(64) LaneWork {
     void* owner;   ///< for `act`
 };
 
-LORE_KERNEL(void run_steps(LaneWork&, int first, int last))
+/// Steps all lanes, rows `first` to `last` - 1 of the chunk. Returns `last`, or the row after that in which some lane
+/// came to more still steps than stop_when_still.
+LORE_KERNEL(int run_steps(LaneWork&, int first, int last))
 
 }   // namespace lore

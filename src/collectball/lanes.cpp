@@ -5,7 +5,6 @@
 
 #include "lane_arena.h"
 #include "lane_work.h"
-#include "stillness.h"
 
 #include <algorithm>
 #include <array>
@@ -17,15 +16,16 @@ namespace {
 
 static_assert(lane_slots == most_lanes);
 
-using RunSteps = void (*)(LaneWork&, int first, int last);
+using RunSteps = int (*)(LaneWork&, int first, int last);
 
 /// Robots side by side in one arena. What happens seldom, the rules decide a lane at a time, as in the plain episode.
 class ArenaLives final : public LaneLives {
 public:
     ArenaLives(Arena const& arena, int stop_when_still)
-        : arena_(arena), stop_when_still_(stop_when_still), width_(lane_count()),
-          run_steps_(kernel_for(active_isa(), LORE_KERNELS(run_steps))), arena_layout_(arena) {
+        : arena_(arena), width_(lane_count()), run_steps_(kernel_for(active_isa(), LORE_KERNELS(run_steps))),
+          arena_layout_(arena) {
         work_.arena = arena_layout_.view();
+        work_.stop_when_still = stop_when_still;
         work_.owner = this;
         work_.act = [](LaneWork& work, int lane, float collect) {
             static_cast<ArenaLives*>(work.owner)->act_plainly(lane, collect);
@@ -40,6 +40,7 @@ public:
         work_.y[lane] = robot.pose.y;
         work_.theta[lane] = robot.pose.theta;
         work_.bumper_right[lane] = work_.bumper_left[lane] = 0;
+        work_.still_steps[lane] = 0;
         now.world = start_world(arena_);
         write_world(lane);
     }
@@ -53,15 +54,12 @@ public:
             int to = row < rows - 1 ? rows - 1 : rows;   // the last step alone, see `rests`
             for (LaneProgress const& lane : progress)
                 if (lane.rows > row) to = std::min(to, lane.rows);
-            if (stop_when_still_ > 0) to = row + 1;
             before_ = work_;
-            if (to == rows && stop_when_still_ == 0)
-                hidden_before_.assign(hidden(), hidden() + buffers.networks.hidden_count * width_);
-            run_steps_(work_, row, to);
-            row = to;
+            if (to == rows) hidden_before_.assign(hidden(), hidden() + buffers.networks.hidden_count * width_);
+            row = run_steps_(work_, row, to);
             for (int l = 0; l < width_; ++l) {
                 LaneProgress& lane = progress[static_cast<std::size_t>(l)];
-                if (stop_when_still_ > 0 && lane.rows >= row && stood_still(l)) lane = {row, true};
+                if (stood_still(l) && lane.rows >= row) lane = {row, true};
                 if (lane.rows == row && row < rows) at(l).last = at(l).world;
             }
         }
@@ -70,7 +68,7 @@ public:
     /// Pose, bumpers, hidden neurons and world are compared. (Any event of the rules changes one of the world's values
     /// that are compared here.)
     bool rests(int l) const override {
-        if (stop_when_still_ > 0) return false;
+        if (work_.stop_when_still > 0) return false;
         if (work_.x[l] != before_.x[l] || work_.y[l] != before_.y[l] || work_.theta[l] != before_.theta[l])
             return false;
         for (std::size_t i = static_cast<std::size_t>(l); i < hidden_before_.size();
@@ -89,7 +87,6 @@ public:
 
 private:
     struct Lane {
-        int still_steps = 0;
         WorldState world;
         std::optional<WorldState> last;   ///< after the last row of a life that ends before its chunk
     };
@@ -126,13 +123,9 @@ private:
         write_world(lane);
     }
 
-    bool stood_still(int l) {
-        Pose const was{before_.x[l], before_.y[l], before_.theta[l]}, is{work_.x[l], work_.y[l], work_.theta[l]};
-        return is_still(was, is) && ++at(l).still_steps > stop_when_still_;
-    }
+    bool stood_still(int l) const { return work_.stop_when_still > 0 && work_.still_steps[l] > work_.stop_when_still; }
 
     Arena const& arena_;
-    int stop_when_still_;
     int width_;
     RunSteps run_steps_;
     LaneArenaLayout arena_layout_;
