@@ -1,86 +1,116 @@
 #include <lore/episode/lane_networks.h>
 
+#include <lore/episode/lanes.h>
+
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <cassert>
+#include <numeric>
 
 namespace lore {
 
 namespace {
 
-constexpr int most_targets = most_effectors + most_hidden;
-constexpr int most_sources = most_sensors + most_hidden;
+constexpr std::size_t most_targets = most_effectors + most_hidden, most_sources = most_sensors + most_hidden;
+static_assert(neuron_group_size * 16 == 64 && most_sources * most_lanes <= 1 << 16);   // LaneNetworks::sources
+
+/// What feeds a target in any lane of a vector.
+struct Feeds {
+    std::bitset<most_sources> sources;
+    std::array<std::uint8_t, most_sources> round;   ///< of each of them: how many come before it
+    std::size_t rounds = 0;
+
+    void number_rounds() {
+        for (std::size_t source = 0; source < most_sources; ++source)
+            if (sources[source]) round[source] = static_cast<std::uint8_t>(rounds++);
+    }
+};
+
+/// The targets of a vector's networks.
+struct VectorTargets {
+    std::array<Feeds, most_targets> feeds;
+    std::array<std::size_t, most_targets> order;   ///< most sources first, so that those of a group have about as many
+
+    void read(Network const& network) {
+        for (std::size_t target = 0; target + 1 < network.first.size(); ++target)
+            for (std::size_t i = network.first[target]; i < network.first[target + 1]; ++i)
+                feeds[target].sources.set(network.source[i]);
+    }
+    void arrange(std::size_t targets) {
+        for (std::size_t target = 0; target < targets; ++target) feeds[target].number_rounds();
+        auto const end = std::next(order.begin(), static_cast<std::ptrdiff_t>(targets));
+        std::iota(order.begin(), end, std::size_t{0});
+        std::stable_sort(order.begin(), end,
+                         [&](std::size_t a, std::size_t b) { return feeds[a].rounds > feeds[b].rounds; });
+    }
+};
+
+/// Where the weights of a target begin, how far one round is from the next, and where its bias is.
+struct Place {
+    std::size_t first, step, bias;
+};
 
 }   // namespace
 
 void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width) {
+    auto const row = static_cast<std::size_t>(width), lanes = row / lane_vectors;
+    std::array<VectorTargets, lane_vectors> vectors;
     hidden_count_ = 0;
-    int outputs = 0, sources = 0;
-    std::array<std::bitset<most_sources>, most_targets> feeds;
-    for (Network const* network : networks) {
-        if (network == nullptr) continue;
-        hidden_count_ = std::max(hidden_count_, network->hidden_count);
-        outputs = network->outputs;
-        sources = std::max(sources, network->inputs + network->hidden_count);
-        for (int target = 0; target < network->target_count(); ++target)
-            for (int i = network->first[static_cast<std::size_t>(target)];
-                 i < network->first[static_cast<std::size_t>(target) + 1]; ++i)
-                feeds[static_cast<std::size_t>(target)].set(network->source[static_cast<std::size_t>(i)]);
+    int outputs = 0;
+    for (std::size_t lane = 0; lane < networks.size(); ++lane) {
+        if (networks[lane] == nullptr) continue;
+        vectors[lane / lanes].read(*networks[lane]);
+        hidden_count_ = std::max(hidden_count_, networks[lane]->hidden_count);
+        outputs = networks[lane]->outputs;
     }
+    auto const targets = static_cast<std::size_t>(outputs + hidden_count_);
+    for (VectorTargets& vector : vectors) vector.arrange(targets);
 
-    int const targets = outputs + hidden_count_;
     groups_.clear();
     sources_.clear();
-    offsets_.clear();
-    std::vector<std::array<int, most_sources>> entry_of;   // [group][source]
-    int const vector_width = width / lane_vectors;
-    int offset = 0;
-    for (int first = 0; first < targets;) {
-        int const end = first < outputs ? outputs : targets;   // the outputs by themselves
-        int const count = std::min(neuron_group_size, end - first);
-        NeuronGroup group{count, first, static_cast<int>(sources_.size()), 0};
-        std::bitset<most_sources> any;
-        for (int k = 0; k < count; ++k) any |= feeds[static_cast<std::size_t>(first + k)];
-        entry_of.emplace_back();
-        for (int source = 0; source < sources; ++source) {
-            if (!any[static_cast<std::size_t>(source)]) continue;
-            entry_of.back()[static_cast<std::size_t>(source)] = offset;
-            sources_.push_back(source);
-            offsets_.push_back(offset);
-            offset += count * vector_width;
-        }
-        group.last_entry = static_cast<int>(sources_.size());
+    std::array<std::array<Place, most_targets>, lane_vectors> places;
+    std::size_t size = 0;
+    for (std::size_t first = 0; first < targets; first += neuron_group_size) {
+        std::size_t const count = std::min<std::size_t>(neuron_group_size, targets - first), block = count * lanes;
+        std::size_t rounds = 0;
+        for (VectorTargets const& vector : vectors) rounds = std::max(rounds, vector.feeds[vector.order[first]].rounds);
+        NeuronGroup group{static_cast<int>(count), static_cast<int>(rounds), {}};
+        std::size_t const first_sources = sources_.size();
+        sources_.resize(first_sources + rounds * lane_vectors, 0);
+        for (std::size_t v = 0; v < lane_vectors; ++v)
+            for (std::size_t k = 0; k < count; ++k) {
+                std::size_t const target = vectors[v].order[first + k], step = lane_vectors * block;
+                group.targets[v][k] = static_cast<int>(target);
+                places[v][target].first = size + v * block + k * lanes;
+                places[v][target].step = step;
+                places[v][target].bias = places[v][target].first + rounds * step;
+                Feeds const& feeds = vectors[v].feeds[target];
+                for (std::size_t source = 0; source < most_sources; ++source)
+                    if (feeds.sources[source])
+                        sources_[first_sources + feeds.round[source] * lane_vectors + v] |= std::uint64_t{source * row}
+                                                                                            << 16 * k;
+            }
+        size += (rounds + 1) * lane_vectors * block;
         groups_.push_back(group);
-        first += count;
     }
 
-    block_size_ = offset;
-    weights_.assign_zeros(static_cast<std::size_t>(block_size_ * lane_vectors));
-    biases_.assign_zeros(static_cast<std::size_t>(targets * width));
-    for (int lane = 0; lane < static_cast<int>(networks.size()); ++lane) {
-        Network const* network = networks[static_cast<std::size_t>(lane)];
-        if (network == nullptr) continue;
-        int const column = lane / vector_width * block_size_ + lane % vector_width;
-        for (std::size_t g = 0; g < groups_.size(); ++g)
-            for (int k = 0; k < groups_[g].count; ++k) {
-                auto const target = static_cast<std::size_t>(groups_[g].first_target + k);
-                if (static_cast<int>(target) >= network->target_count()) continue;
-                biases_[target * static_cast<std::size_t>(width) + static_cast<std::size_t>(lane)] =
-                    network->bias[target];
-                for (std::size_t i = network->first[target]; i < network->first[target + 1]; ++i) {
-                    int const place = column + entry_of[g][network->source[i]] + k * vector_width;
-                    weights_[static_cast<std::size_t>(place)] = network->weight[i];
-                }
-            }
+    weights_.assign_zeros(size);
+    for (std::size_t lane = 0; lane < networks.size(); ++lane) {
+        if (networks[lane] == nullptr) continue;
+        Network const& network = *networks[lane];
+        float* const weights = weights_.data() + lane % lanes;
+        for (std::size_t target = 0; target + 1 < network.first.size(); ++target) {
+            Place const& place = places[lane / lanes][target];
+            auto const& round = vectors[lane / lanes].feeds[target].round;
+            weights[place.bias] = network.bias[target];
+            for (std::size_t i = network.first[target]; i < network.first[target + 1]; ++i)
+                weights[place.first + round[network.source[i]] * place.step] = network.weight[i];
+        }
     }
 }
 
 LaneNetworks LaneNetworkLayout::view() const {
-    return {groups_.data(),  static_cast<int>(groups_.size()),
-            sources_.data(), offsets_.data(),
-            weights_.data(), block_size_,
-            biases_.data(),  hidden_count_};
+    return {groups_.data(), static_cast<int>(groups_.size()), hidden_count_, sources_.data(), weights_.data()};
 }
 
 }   // namespace lore

@@ -16,25 +16,22 @@ inline constexpr int lane_vectors = 2;
 /// Most sums side by side: enough in flight to hide the latency of an addition.
 inline constexpr int neuron_group_size = 4;
 
-/// Targets of a network whose sums run side by side: one for each of `count` accumulators.
+/// Targets whose sums run side by side, in all vectors.
 struct NeuronGroup {
     std::int32_t count;
-    std::int32_t first_target;   ///< outputs, then hidden neurons
-    std::int32_t first_entry, last_entry;
+    std::int32_t rounds;                                     ///< products added to each sum
+    std::int32_t targets[lane_vectors][neuron_group_size];   ///< outputs, then hidden neurons
 };
 
-/// The lanes' networks laid over each other. An entry is a source that feeds, in any lane, a target of the group; its
-/// weights are [target of group][lane of vector], 0 where a lane has no such edge. That changes no sum: sources are
-/// never negative, so the product is +0, and adding +0 to a sum that started from +0 gives that sum.
+/// The lanes' networks laid over each other, those of each vector for themselves: of every target the sources that feed
+/// it in any lane of the vector, in their order. The weight is 0 where a lane has no such edge, and where a target has
+/// fewer sources than others of its group. That changes no sum: sources are never negative, so the product is +0, and
+/// adding +0 to a sum that started from +0 gives that sum.
 struct LaneNetworks {
     NeuronGroup const* groups;
-    std::int32_t group_count;
-    std::int32_t const* sources;   ///< per entry: inputs, then hidden neurons
-    std::int32_t const* offsets;   ///< per entry: of its weights
-    float const* weights;          ///< one block a vector, so that a vector alone has it close together
-    std::int32_t block_size;       ///< [floats]
-    float const* biases;           ///< [target][lane]
-    std::int32_t hidden_count;
+    std::int32_t group_count, hidden_count;
+    std::uint64_t const* sources;   ///< [group]: [round][vector], 16 bits a target: row of the source times its length
+    float const* weights;           ///< [group]: [round][vector][target][lane], then biases [vector][target][lane]
 };
 
 /// Where a tick reads and writes. Rows are of lane_vectors vectors, one value a lane.
@@ -45,30 +42,31 @@ struct LaneNeurons {
 
 namespace lane_tick {
 
+/// Reads on from `sources` and `weights`.
 template <int width, int vectors, int count>
-LORE_INLINE void tick_group(LaneNetworks const& networks, NeuronGroup const& group, float const* values,
-                            float* to_first) {
+LORE_INLINE void tick_group(NeuronGroup const& group, std::uint64_t const*& sources, float const*& weights, int outputs,
+                            LaneNeurons const& neurons, float* outputs_row) {
     using F = Lanes<float, width>;
-    constexpr int row = width * lane_vectors;
+    constexpr int row = width * lane_vectors, block = width * count;
     F sums[vectors][count];
     for (auto& of_vector : sums)
         for (F& sum : of_vector) sum = F{};
-    for (int entry = group.first_entry; entry < group.last_entry; ++entry) {
-        float const* const source = values + networks.sources[entry] * row;
-        float const* const weights = networks.weights + networks.offsets[entry];
+    for (int round = 0; round < group.rounds; ++round, sources += lane_vectors, weights += lane_vectors * block)
         for (int v = 0; v < vectors; ++v) {
-            F const value = lanes::load<F>(source + v * width);
-            float const* const own = weights + v * networks.block_size;
-            for (int k = 0; k < count; ++k) sums[v][k] += lanes::load<F>(own + k * width) * value;
+            float const* const values = neurons.values + v * width;
+            for (int k = 0; k < count; ++k)
+                sums[v][k] += lanes::load<F>(weights + v * block + k * width) *
+                              lanes::load<F>(values + (sources[v] >> 16 * k & 0xffff));
         }
-    }
-    float const* const biases = networks.biases + group.first_target * row;
     for (int k = 0; k < count; ++k)
         for (int v = 0; v < vectors; ++v) {
-            int const at = k * row + v * width;
-            F const bias = lanes::load<F>(biases + at);
-            lanes::store(to_first + at, F(1.0f / (1.0f + math::exp(F(bias - sums[v][k])))));
+            int const target = group.targets[v][k];
+            float* const to =
+                target < outputs ? outputs_row + target * row : neurons.next_hidden + (target - outputs) * row;
+            F const bias = lanes::load<F>(weights + v * block + k * width);
+            lanes::store(to + v * width, F(1.0f / (1.0f + math::exp(F(bias - sums[v][k])))));
         }
+    weights += lane_vectors * block;
 }
 
 }   // namespace lane_tick
@@ -80,16 +78,18 @@ LORE_INLINE void tick_lanes(LaneNetworks const& networks, int inputs, int output
                             float* outputs_row) {
     using F = Lanes<float, width>;
     constexpr int row = width * lane_vectors;
+    std::uint64_t const* sources = networks.sources;
+    float const* weights = networks.weights;
     for (int g = 0; g < networks.group_count; ++g) {
         NeuronGroup const& group = networks.groups[g];
-        float* const to = group.first_target < outputs ? outputs_row + group.first_target * row
-                                                       : neurons.next_hidden + (group.first_target - outputs) * row;
         static_assert(neuron_group_size == 4);
         switch (group.count) {
-        case 4: lane_tick::tick_group<width, vectors, 4>(networks, group, neurons.values, to); break;
-        case 3: lane_tick::tick_group<width, vectors, 3>(networks, group, neurons.values, to); break;
-        case 2: lane_tick::tick_group<width, vectors, 2>(networks, group, neurons.values, to); break;
-        default: lane_tick::tick_group<width, vectors, 1>(networks, group, neurons.values, to); break;
+        case 4: lane_tick::tick_group<width, vectors, 4>(group, sources, weights, outputs, neurons, outputs_row); break;
+        case 3: lane_tick::tick_group<width, vectors, 3>(group, sources, weights, outputs, neurons, outputs_row); break;
+        case 2: lane_tick::tick_group<width, vectors, 2>(group, sources, weights, outputs, neurons, outputs_row); break;
+        default:
+            lane_tick::tick_group<width, vectors, 1>(group, sources, weights, outputs, neurons, outputs_row);
+            break;
         }
     }
     float* const hidden = neurons.values + inputs * row;
