@@ -14,7 +14,8 @@ using Path = std::vector<Tile>;
 /// The different paths of a pool, each once: many robots travel alike.
 ///
 /// Those that appear in the rows to be measured come last, so that row r needs the distances to all paths before it.
-/// Otherwise in lexicographic order, which puts similar paths, and so similar bands, side by side.
+/// Otherwise by length, because only paths of one length have bands, and then in lexicographic order, which puts
+/// similar paths, and so similar bands, side by side.
 struct DistinctPaths {
     std::vector<Path const*> paths;
     std::vector<int> place;   ///< of each member's path in `paths`
@@ -24,6 +25,7 @@ struct DistinctPaths {
 DistinctPaths distinct_paths(std::span<Descriptors const* const> pool, int first) {
     auto const path = [&](int member) -> Path const& { return pool[member]->path; };
     auto const before = [](Path const& a, Path const& b) {
+        if (a.size() != b.size()) return a.size() < b.size();
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
                                             [](Tile s, Tile t) { return tile_index(s) < tile_index(t); });
     };
