@@ -20,8 +20,8 @@ struct Feeds {
     std::array<std::uint8_t, most_sources> round;   ///< of each of them: how many come before it
     std::size_t rounds = 0;
 
-    void number_rounds() {
-        for (std::size_t source = 0; source < most_sources; ++source)
+    void number_rounds(std::size_t source_count) {
+        for (std::size_t source = 0; source < source_count; ++source)
             if (sources[source]) round[source] = static_cast<std::uint8_t>(rounds++);
     }
 };
@@ -36,8 +36,8 @@ struct VectorTargets {
             for (std::size_t i = network.first[target]; i < network.first[target + 1]; ++i)
                 feeds[target].sources.set(network.source[i]);
     }
-    void arrange(std::size_t targets) {
-        for (std::size_t target = 0; target < targets; ++target) feeds[target].number_rounds();
+    void arrange(std::size_t targets, std::size_t source_count) {
+        for (std::size_t target = 0; target < targets; ++target) feeds[target].number_rounds(source_count);
         auto const end = std::next(order.begin(), static_cast<std::ptrdiff_t>(targets));
         std::iota(order.begin(), end, std::size_t{0});
         std::stable_sort(order.begin(), end,
@@ -56,15 +56,17 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
     auto const row = static_cast<std::size_t>(width), lanes = row / lane_vectors;
     std::array<VectorTargets, lane_vectors> vectors;
     hidden_count_ = 0;
-    int outputs = 0;
+    int inputs = 0, outputs = 0;
     for (std::size_t lane = 0; lane < networks.size(); ++lane) {
         if (networks[lane] == nullptr) continue;
         vectors[lane / lanes].read(*networks[lane]);
         hidden_count_ = std::max(hidden_count_, networks[lane]->hidden_count);
+        inputs = networks[lane]->inputs;
         outputs = networks[lane]->outputs;
     }
-    auto const targets = static_cast<std::size_t>(outputs + hidden_count_);
-    for (VectorTargets& vector : vectors) vector.arrange(targets);
+    auto const targets = static_cast<std::size_t>(outputs + hidden_count_),
+               source_count = static_cast<std::size_t>(inputs + hidden_count_);
+    for (VectorTargets& vector : vectors) vector.arrange(targets, source_count);
 
     groups_.clear();
     sources_.clear();
@@ -85,7 +87,7 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
                 places[v][target].step = step;
                 places[v][target].bias = places[v][target].first + rounds * step;
                 Feeds const& feeds = vectors[v].feeds[target];
-                for (std::size_t source = 0; source < most_sources; ++source)
+                for (std::size_t source = 0; source < source_count; ++source)
                     if (feeds.sources[source])
                         sources_[first_sources + feeds.round[source] * lane_vectors + v] |= std::uint64_t{source * row}
                                                                                             << 16 * k;
