@@ -273,7 +273,8 @@ LORE_INLINE void move(LaneWork& work, int at, F const& left_wheel, F const& righ
     lanes::store(work.bumper_left + at, contact.left);
 }
 
-/// Counts the still steps of all lanes; true if one comes to more than it may with this step.
+/// Counts the still steps of all lanes; true if one comes to more than it may with this step. To one more exactly:
+/// lanes whose life has ended are stepped on, and would else stop the others at each of their still steps.
 template <int vectors>
 LORE_INLINE bool some_stood_still(LaneWork& work, int step) {
     I over{};

@@ -54,8 +54,10 @@ public:
             int to = row < rows - 1 ? rows - 1 : rows;   // the last step alone, see `rests`
             for (LaneProgress const& lane : progress)
                 if (lane.rows > row) to = std::min(to, lane.rows);
-            before_ = work_;
-            if (to == rows) hidden_before_.assign(hidden(), hidden() + buffers.networks.hidden_count * width_);
+            if (to == rows) {
+                before_ = work_;
+                hidden_before_.assign(hidden(), hidden() + buffers.networks.hidden_count * width_);
+            }
             row = run_steps_(work_, row, to);
             for (int l = 0; l < width_; ++l) {
                 LaneProgress& lane = progress[static_cast<std::size_t>(l)];

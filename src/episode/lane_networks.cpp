@@ -81,16 +81,15 @@ void LaneNetworkLayout::lay(std::span<Network const* const> networks, int width)
         sources_.resize(first_sources + rounds * lane_vectors, 0);
         for (std::size_t v = 0; v < lane_vectors; ++v)
             for (std::size_t k = 0; k < count; ++k) {
-                std::size_t const target = vectors[v].order[first + k], step = lane_vectors * block;
+                std::size_t const target = vectors[v].order[first + k], step = lane_vectors * block,
+                                  begin = size + v * block + k * lanes;
                 group.targets[v][k] = static_cast<int>(target);
-                places[v][target].first = size + v * block + k * lanes;
-                places[v][target].step = step;
-                places[v][target].bias = places[v][target].first + rounds * step;
+                places[v][target] = {begin, step, begin + rounds * step};
                 Feeds const& feeds = vectors[v].feeds[target];
-                for (std::size_t source = 0; source < source_count; ++source)
-                    if (feeds.sources[source])
-                        sources_[first_sources + feeds.round[source] * lane_vectors + v] |= std::uint64_t{source * row}
-                                                                                            << 16 * k;
+                for (std::uint64_t source = 0; source < source_count; ++source) {
+                    if (!feeds.sources[source]) continue;
+                    sources_[first_sources + feeds.round[source] * lane_vectors + v] |= source * row << 16 * k;
+                }
             }
         size += (rounds + 1) * lane_vectors * block;
         groups_.push_back(group);
