@@ -152,7 +152,8 @@ ExitCode direct(Session const& session, int argc, char** argv) {
     CommandLine line;
     std::optional<ExitCode> only;
     try {
-        active_isa();   // LORE_ISA may be wrong
+        active_isa();             // LORE_ISA may be wrong,
+        sleeps_while_waiting();   // or LORE_WAITING
         only = read_command_line(argc, argv, line);
     } catch (...) {
         release_other_ranks(session);

@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint32_t message_mark = 0x45524f4c;   ///< "LORE"
 constexpr int polls_before_sleeping = 4000;          ///< longer than rank 0 takes between two generations
 constexpr std::chrono::microseconds sleep{20};       ///< with the kernel's slack about 80
+/// Of ranks that share processors: each look for messages takes time from somebody's evaluations.
+constexpr std::chrono::microseconds long_sleep{200};
 
 /// Behind the payload, which therefore need not move.
 struct Trailer {
@@ -89,7 +91,8 @@ Message Post::await(std::span<MessageKind const> kinds) {
     for (int polls = 0;; ++polls) {
         if (auto message = receive(kinds)) return *std::move(message);
         // Sleep instead of yield: the kernel wakes a sleeper before processes that keep the processor busy.
-        if (polls > polls_before_sleeping) std::this_thread::sleep_for(sleep);
+        if (sleeps_) std::this_thread::sleep_for(long_sleep);
+        else if (polls > polls_before_sleeping) std::this_thread::sleep_for(sleep);
     }
 }
 

@@ -63,6 +63,7 @@ private:
         MPI_Request request;
     };
     MPI_Comm comm_;
+    bool sleeps_ = sleeps_while_waiting();
     std::list<Outgoing> outgoing_;
 };
 

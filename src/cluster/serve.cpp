@@ -6,12 +6,18 @@
 #include <lore/archive/messages.h>
 #include <lore/core/stopwatch.h>
 
+#include <algorithm>
 #include <deque>
+#include <span>
 #include <string_view>
 
 namespace lore {
 
 namespace {
+
+/// Evaluations; about 45 kB. Of more than 64 kB Open MPI over TCP asks the receiver first, and a rank 0 that receives
+/// from many would wait for each a way there and back.
+constexpr std::size_t most_in_a_message = 16;
 
 template <class Items>
 Bytes bytes_of(Items const& items) {
@@ -41,10 +47,13 @@ public:
         if (++pulses_ % pulses_a_look == 0) look();
     }
 
-    /// Lanes that started together end together: one message for all of them.
+    /// Lanes that started together end together.
     void send_finished() {
-        if (finished_.empty()) return;
-        post_.send(0, MessageKind::evaluated, 0, pack_deliveries(finished_));
+        for (std::span<Delivery const> left{finished_}; !left.empty();) {
+            auto const batch = left.first(std::min(left.size(), most_in_a_message));
+            post_.send(0, MessageKind::evaluated, 0, pack_deliveries(batch));
+            left = left.subspan(batch.size());
+        }
         finished_.clear();
     }
 

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -125,6 +126,14 @@ void Session::abort(int exit_code) const {
     std::fflush(nullptr);
     if (launched_ && size() > 1) MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
+}
+
+bool sleeps_while_waiting() {
+    char const* const wish = std::getenv("LORE_WAITING");
+    if (wish == nullptr || *wish == '\0' || std::string_view{wish} == "poll") return false;
+    if (std::string_view{wish} == "sleep") return true;
+    throw UsageError(fmt::format("LORE_WAITING={} is not a way of waiting", wish), "known are poll, sleep",
+                     "Unset LORE_WAITING to look for messages first.");
 }
 
 MpiLibrary mpi_library() {

@@ -156,8 +156,9 @@ def task_file(source, task):
     return str(before if before.exists() else now)
 
 
-def start_evolution(build, task, directory, *, source=SOURCE, ranks=1, generations=None, kb=None, settings=(),
-                    archive=None, seed=1):
+def start_evolution(build, task, directory, *, source=SOURCE, ranks=1, nodes=None, generations=None, kb=None,
+                    settings=(), archive=None, seed=1):
+    """Of a run with so many ranks here, or with one on each of `nodes`."""
     command = [program(build, "lore-evolve"), task_file(source, task), "--seed", str(seed), "--out", directory]
     if generations is not None:
         settings = (f"evolution.generations={generations}", *settings)
@@ -167,7 +168,9 @@ def start_evolution(build, task, directory, *, source=SOURCE, ranks=1, generatio
         command += ["--kb", kb]
     if archive:
         command += ["--archive", archive]
-    if ranks > 1:
+    if nodes:
+        command = nodes.command(command)
+    elif ranks > 1:
         command = ["mpirun", "-n", str(ranks), "--bind-to", "none", *command]
     with open(f"{directory}.out", "w") as out, open(f"{directory}.err", "w") as err:
         return command, subprocess.Popen(command, stdout=out, stderr=err, env=environment())

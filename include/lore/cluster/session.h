@@ -55,6 +55,10 @@ private:
     bool launched_ = false;
 };
 
+/// Whether a rank that waits for messages sleeps at once (LORE_WAITING=sleep), leaving its processor to others, instead
+/// of looking for them first. Throws UsageError if the variable says something else than poll or sleep.
+bool sleeps_while_waiting();
+
 /// The MPI that Lore was built with, such as {"Open MPI", "4.1.4"} or {"MPICH", "4.0.2"}; {"MPI", its standard} for
 /// others.
 struct MpiLibrary {

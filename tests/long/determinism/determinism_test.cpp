@@ -59,6 +59,18 @@ TEST(Determinism, ranks_and_delays_do_not_change_a_run) {
     }
 }
 
+TEST(Determinism, how_ranks_wait_for_messages_does_not_change_a_run) {
+    Scratch const scratch;
+    Straight const straight{scratch, 10};
+    for (char const* const waiting : {"LORE_WAITING=poll", "LORE_WAITING=sleep"}) {
+        std::string const directory = scratch.file(waiting);
+        Command command{scratch, std::vector<std::string>{waiting} + on_ranks(3) +
+                                     evolve(straight.config, directory, {"--seed", "5"})};
+        EXPECT_EQ(command.wait(), 0) << command.err();
+        EXPECT_EQ(signature(command), straight.signature) << waiting;
+    }
+}
+
 TEST(Determinism, another_seed_is_another_run) {
     Scratch const scratch;
     Straight const straight{scratch, 5};

@@ -69,6 +69,7 @@ TEST(CommandLine, mistakes_are_one_line_and_exit_code_2) {
                                                {evolve_, config, "--ou", out},
                                                {evolve_, config, "--out", out, "--set", "evolution.generatoins=3"},
                                                {"LORE_ISA=v9", evolve_, config, "--out", out},
+                                               {"LORE_WAITING=badly", evolve_, config, "--out", out},
                                                {"SLURM_NTASKS=4", evolve_, config, "--out", out}}) {
         Refusal const said = refusal(scratch, words);
         EXPECT_EQ(said.code, 2) << said.line;

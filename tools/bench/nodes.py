@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Nodes of a cluster on one machine: network namespaces, and between them links of a set delay and bandwidth.
+
+Messages cost what they would cost between nodes; the processors are those of this machine, which all nodes share. Needs
+root, /dev/net/tun, `ip`, `unshare` and Open MPI. scaling-report measures on them; as a program it runs a command with a
+rank on each.
+
+  tools/bench/nodes.py --nodes 4 --delay 50e-6 --bandwidth 1e9 lore-evolve jobs/tasks/source.toml --out s1
+"""
+
+import argparse
+import ctypes
+import fcntl
+import heapq
+import multiprocessing
+import os
+import pathlib
+import select
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+from measuring import Refusal, environment, main
+
+SUBNET = "10.77.0"     # of the nodes alone: no packet leaves them
+FRAME = 32768          # bytes: a frame takes the switch about 20 us however long it is
+NEW_NETWORK = 0x40000000                                  # CLONE_NEWNET, of setns
+TAP, NO_HEADER, SET_INTERFACE = 0x0002, 0x1000, 0x400454CA   # of linux/if_tun.h
+
+
+def why_not():
+    """Why this machine cannot have nodes; empty where it can."""
+    if os.geteuid() != 0:
+        return "network namespaces are root's"
+    for name in ("ip", "unshare", "mpirun"):
+        if not shutil.which(name):
+            return f"there is no program '{name}'"
+    if "Open MPI" not in subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout:
+        return "the options that tell MPI of its nodes are Open MPI's"
+    probe = subprocess.run(["unshare", "--net", "--uts", "ip", "tuntap", "add", "dev", "probe", "mode", "tap"],
+                           capture_output=True, text=True, check=False)
+    return probe.stderr.strip().split("\n")[-1] if probe.returncode else ""
+
+
+class Nodes:
+    """`with Nodes(8, latency=1e-4, bandwidth=1e9) as nodes`: 8 nodes, a switch between them. latency: of one way [s];
+    bandwidth: of each node's link, either way [bit/s]."""
+
+    def __init__(self, count, *, latency, bandwidth):
+        self.names = [f"lore-{os.getpid()}-{number}" for number in range(count)]
+        self.latency, self.bandwidth = latency, bandwidth
+        self.switch = self.scratch = None
+
+    def __enter__(self):
+        problem = why_not()
+        if problem:
+            raise Refusal(f"no nodes can be made here ({problem}). Run it as root on a machine of your own.")
+        self.scratch = tempfile.TemporaryDirectory()
+        agent = pathlib.Path(self.scratch.name, "agent")   # in the place of ssh: agent HOST COMMAND...
+        agent.write_text('#!/bin/sh\nhost=$1\nshift\nexec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"\n')
+        agent.chmod(0o700)
+        self.agent = str(agent)
+        try:
+            taps = [self._make(number, name) for number, name in enumerate(self.names)]
+            self.switch = multiprocessing.get_context("fork").Process(
+                target=_carry, args=(taps, self.latency, self.bandwidth), daemon=True)
+            self.switch.start()
+            for tap in taps:
+                os.close(tap)
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        if self.switch:
+            self.switch.kill()
+            self.switch.join()
+        for name in self.names:
+            subprocess.run(["ip", "netns", "del", name], capture_output=True, check=False)
+        self.scratch.cleanup()
+
+    def command(self, command):
+        """`command` with one rank on each node, mpirun itself on the first."""
+        own = f"{SUBNET}.0/24"
+        mpirun = ["mpirun", "-n", str(len(self.names)), "--host", ",".join(f"{name}:1" for name in self.names),
+                  "--bind-to", "none"]
+        for name, value in (("plm_rsh_agent", self.agent), ("plm_rsh_no_tree_spawn", "1"), ("btl", "tcp,self"),
+                            ("btl_tcp_if_include", own), ("oob_tcp_if_include", own)):
+            mpirun += ["--mca", name, value]
+        first = self.names[0]
+        mpirun += ["-x", "LORE_WAITING=sleep"]   # those that wait would take the processors from those that evaluate
+        return ["ip", "netns", "exec", first, "unshare", "--uts", "sh", "-c", f'hostname {first}; exec "$@"', "sh",
+                *mpirun, *command]
+
+    def bytes_of_first(self):
+        """(received, sent) by the first node so far, all headers included."""
+        show = subprocess.run(["ip", "netns", "exec", self.names[0], "cat",
+                               "/sys/class/net/wire/statistics/rx_bytes", "/sys/class/net/wire/statistics/tx_bytes"],
+                              capture_output=True, text=True, check=True)
+        return tuple(map(int, show.stdout.split()))
+
+    def _make(self, number, name):
+        """A namespace whose only link is a tap device; its other end, a file descriptor."""
+        subprocess.run(["ip", "netns", "add", name], check=True)
+        tap = _open_tap(name)
+        for words in (("link", "set", "lo", "up"),
+                      ("link", "set", "wire", "address", _hardware(number).hex(":"), "mtu", str(FRAME)),
+                      ("addr", "add", f"{SUBNET}.{number + 1}/24", "dev", "wire"),
+                      ("link", "set", "wire", "up"),
+                      *(("neigh", "replace", f"{SUBNET}.{other + 1}", "lladdr", _hardware(other).hex(":"), "dev",
+                         "wire") for other in range(len(self.names)) if other != number)):
+            subprocess.run(["ip", "-n", name, *words], check=True)
+        return tap
+
+
+def _hardware(number):
+    return bytes((2, 0, 0, 0, 0, number))
+
+
+def _open_tap(namespace):
+    """Of a new device `wire` there. The descriptor works from everywhere."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    with open("/proc/self/ns/net", "rb") as here, open(f"/run/netns/{namespace}", "rb") as there:
+        if libc.setns(there.fileno(), NEW_NETWORK):
+            raise OSError(ctypes.get_errno(), f"cannot enter the network namespace {namespace}")
+        try:
+            tap = os.open("/dev/net/tun", os.O_RDWR | os.O_NONBLOCK)
+            fcntl.ioctl(tap, SET_INTERFACE, struct.pack("16sH22x", b"wire", TAP | NO_HEADER))
+        finally:
+            libc.setns(here.fileno(), NEW_NETWORK)
+    return tap
+
+
+def _carry(taps, latency, bandwidth):
+    """The switch: a frame takes its sender's link as long as its bits need, begins at its receiver's link `latency`
+    later, or when that is free, and is there when that has carried it."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)   # PR_SET_PDEATHSIG: not to outlive a killed program
+    os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))   # wakes before the ranks that keep the processors busy
+    sender_free, receiver_free = [0.0] * len(taps), [0.0] * len(taps)
+    travelling, number = [], 0
+    while True:
+        now = time.monotonic()
+        while travelling and travelling[0][0] <= now:
+            _, _, to, frame = heapq.heappop(travelling)
+            os.write(taps[to], frame)
+        wait = max(0.0, travelling[0][0] - time.monotonic()) if travelling else None
+        for tap in select.select(taps, [], [], wait)[0]:
+            source, now = taps.index(tap), time.monotonic()
+            while True:
+                try:
+                    frame = os.read(tap, FRAME + 64)
+                except BlockingIOError:
+                    break
+                to = frame[5]
+                if frame[:5] != _hardware(0)[:5] or to >= len(taps):
+                    continue   # to all: nothing that MPI needs
+                seconds = len(frame) * 8 / bandwidth
+                begin = max(now, sender_free[source])
+                sender_free[source] = begin + seconds
+                receiver_free[to] = max(begin + latency, receiver_free[to]) + seconds
+                number += 1   # frames that arrive together stay in order
+                heapq.heappush(travelling, (receiver_free[to], number, to, frame))
+
+
+def work():
+    usage = __doc__.split("\n\n")
+    parser = argparse.ArgumentParser(description="\n\n".join(usage[:2]), epilog="example:\n" + usage[2],
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--nodes", type=int, metavar="N", required=True, help="from 2 to 200")
+    parser.add_argument("--delay", type=float, metavar="SECONDS", default=0.0, help="of one way (default 0)")
+    parser.add_argument("--bandwidth", type=float, metavar="BIT/S", default=1e12,
+                        help="of a node's link, either way (default 1e12)")
+    parser.add_argument("command", nargs=argparse.REMAINDER, help="and its arguments")
+    options = parser.parse_args()
+    if not 2 <= options.nodes <= 200 or options.delay < 0 or options.bandwidth <= 0 or not options.command:
+        parser.error("2 to 200 nodes, a delay of at least 0, a bandwidth above 0, and a command")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))   # so that the nodes go
+    with Nodes(options.nodes, latency=options.delay, bandwidth=options.bandwidth) as nodes:
+        code = subprocess.run(nodes.command(options.command), env=environment(), check=False).returncode
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main(work)
