@@ -9,6 +9,7 @@ rank on each.
 """
 
 import argparse
+import contextlib
 import ctypes
 import fcntl
 import heapq
@@ -26,9 +27,9 @@ import time
 
 from measuring import Refusal, environment, main
 
-SUBNET = "10.77.0"     # of the nodes alone: no packet leaves them
-FRAME = 32768          # bytes: a frame takes the switch about 20 us however long it is
-NEW_NETWORK = 0x40000000                                  # CLONE_NEWNET, of setns
+SUBNET = "10.77.0"   # of the nodes alone: no packet leaves them
+FRAME = 32768        # bytes; long, since a frame takes the switch as much time whatever its length
+NEW_NETWORK = 0x40000000                                     # CLONE_NEWNET, of setns
 TAP, NO_HEADER, SET_INTERFACE = 0x0002, 0x1000, 0x400454CA   # of linux/if_tun.h
 
 
@@ -92,8 +93,8 @@ class Nodes:
         for name, value in (("plm_rsh_agent", self.agent), ("plm_rsh_no_tree_spawn", "1"), ("btl", "tcp,self"),
                             ("btl_tcp_if_include", own), ("oob_tcp_if_include", own)):
             mpirun += ["--mca", name, value]
-        first = self.names[0]
         mpirun += ["-x", "LORE_WAITING=sleep"]   # those that wait would take the processors from those that evaluate
+        first = self.names[0]
         return ["ip", "netns", "exec", first, "unshare", "--uts", "sh", "-c", f'hostname {first}; exec "$@"', "sh",
                 *mpirun, *command]
 
@@ -106,7 +107,7 @@ class Nodes:
 
     def _make(self, number, name):
         """A namespace whose only link is a tap device; its other end, a file descriptor."""
-        subprocess.run(["ip", "netns", "add", name], check=True)
+        _ip("netns", "add", name)
         tap = _open_tap(name)
         for words in (("link", "set", "lo", "up"),
                       ("link", "set", "wire", "address", _hardware(number).hex(":"), "mtu", str(FRAME)),
@@ -114,8 +115,14 @@ class Nodes:
                       ("link", "set", "wire", "up"),
                       *(("neigh", "replace", f"{SUBNET}.{other + 1}", "lladdr", _hardware(other).hex(":"), "dev",
                          "wire") for other in range(len(self.names)) if other != number)):
-            subprocess.run(["ip", "-n", name, *words], check=True)
+            _ip("-n", name, *words)
         return tap
+
+
+def _ip(*words):
+    done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise Refusal(f"'ip {' '.join(words)}' failed ({done.stderr.strip()}). Run it as root on a machine of your own.")
 
 
 def _hardware(number):
@@ -140,7 +147,8 @@ def _carry(taps, latency, bandwidth):
     """The switch: a frame takes its sender's link as long as its bits need, begins at its receiver's link `latency`
     later, or when that is free, and is there when that has carried it."""
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)   # PR_SET_PDEATHSIG: not to outlive a killed program
-    os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))   # wakes before the ranks that keep the processors busy
+    with contextlib.suppress(PermissionError):   # wakes before the ranks that keep the processors busy
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
     sender_free, receiver_free = [0.0] * len(taps), [0.0] * len(taps)
     travelling, number = [], 0
     while True:
@@ -156,8 +164,8 @@ def _carry(taps, latency, bandwidth):
                     frame = os.read(tap, FRAME + 64)
                 except BlockingIOError:
                     break
-                to = frame[5]
-                if frame[:5] != _hardware(0)[:5] or to >= len(taps):
+                to = frame[5]   # the last byte of the receiver's address
+                if frame[:5] != _hardware(0)[:5]:
                     continue   # to all: nothing that MPI needs
                 seconds = len(frame) * 8 / bandwidth
                 begin = max(now, sender_free[source])
