@@ -17,7 +17,7 @@ namespace {
 
 /// Evaluations; about 45 kB. Of more than 64 kB Open MPI over TCP asks the receiver first, and a rank 0 that receives
 /// from many would wait for each a way there and back.
-constexpr std::size_t most_in_a_message = 16;
+constexpr std::size_t most_evaluations_in_one = 16;
 
 template <class Items>
 Bytes bytes_of(Items const& items) {
@@ -50,7 +50,7 @@ public:
     /// Lanes that started together end together.
     void send_finished() {
         for (std::span<Delivery const> left{finished_}; !left.empty();) {
-            auto const batch = left.first(std::min(left.size(), most_in_a_message));
+            auto const batch = left.first(std::min(left.size(), most_evaluations_in_one));
             post_.send(0, MessageKind::evaluated, 0, pack_deliveries(batch));
             left = left.subspan(batch.size());
         }
