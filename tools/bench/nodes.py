@@ -42,9 +42,15 @@ def why_not():
             return f"there is no program '{name}'"
     if "Open MPI" not in subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout:
         return "the options that tell MPI of its nodes are Open MPI's"
-    probe = subprocess.run(["unshare", "--net", "--uts", "ip", "tuntap", "add", "dev", "probe", "mode", "tap"],
-                           capture_output=True, text=True, check=False)
-    return probe.stderr.strip().split("\n")[-1] if probe.returncode else ""
+    name = f"lore-{os.getpid()}-probe"
+    try:
+        for words in (("netns", "add", name), ("-n", name, "tuntap", "add", "dev", "probe", "mode", "tap")):
+            probe = subprocess.run(["unshare", "--uts", "ip", *words], capture_output=True, text=True, check=False)
+            if probe.returncode:
+                return probe.stderr.strip().split("\n")[-1]
+    finally:
+        subprocess.run(["ip", "netns", "del", name], capture_output=True, check=False)
+    return ""
 
 
 class Nodes:
