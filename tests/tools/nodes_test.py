@@ -81,7 +81,7 @@ class NodesOfOneMachine(unittest.TestCase):
         self.assertEqual(failed.returncode, 1)
         self.assertEqual(namespaces(), before)
         with subprocess.Popen([*NODES, "--nodes", "2", "sleep", "600"], stderr=subprocess.DEVNULL) as stopped:
-            while len(namespaces() - before) < 2:
+            while len(namespaces() - before) < 2 and stopped.poll() is None:
                 time.sleep(0.05)
             stopped.send_signal(signal.SIGTERM)
             self.assertEqual(stopped.wait(60), 143)

@@ -12,6 +12,7 @@ import argparse
 import contextlib
 import ctypes
 import fcntl
+import functools
 import heapq
 import multiprocessing
 import os
@@ -33,6 +34,7 @@ NEW_NETWORK = 0x40000000                                     # CLONE_NEWNET, of 
 TAP, NO_HEADER, SET_INTERFACE = 0x0002, 0x1000, 0x400454CA   # of linux/if_tun.h
 
 
+@functools.cache
 def why_not():
     """Why this machine cannot have nodes; empty where it can."""
     if os.geteuid() != 0:
@@ -113,20 +115,18 @@ class Nodes:
 
     def _make(self, number, name):
         """A namespace whose only link is a tap device; its other end, a file descriptor."""
-        _ip("netns", "add", name)
+        _ip(["netns", "add", name])
         tap = _open_tap(name)
-        for words in (("link", "set", "lo", "up"),
-                      ("link", "set", "wire", "address", _hardware(number).hex(":"), "mtu", str(FRAME)),
-                      ("addr", "add", f"{SUBNET}.{number + 1}/24", "dev", "wire"),
-                      ("link", "set", "wire", "up"),
-                      *(("neigh", "replace", f"{SUBNET}.{other + 1}", "lladdr", _hardware(other).hex(":"), "dev",
-                         "wire") for other in range(len(self.names)) if other != number)):
-            _ip("-n", name, *words)
+        others = [other for other in range(len(self.names)) if other != number]
+        _ip(["-n", name, "-batch", "-"], "\n".join([
+            "link set lo up", f"link set wire address {_hardware(number).hex(':')} mtu {FRAME}",
+            f"addr add {SUBNET}.{number + 1}/24 dev wire", "link set wire up",
+            *(f"neigh replace {SUBNET}.{other + 1} lladdr {_hardware(other).hex(':')} dev wire" for other in others)]))
         return tap
 
 
-def _ip(*words):
-    done = subprocess.run(["ip", *words], capture_output=True, text=True, check=False)
+def _ip(words, lines=None):
+    done = subprocess.run(["ip", *words], input=lines, capture_output=True, text=True, check=False)
     if done.returncode:
         raise Refusal(f"'ip {' '.join(words)}' failed ({done.stderr.strip()}). Run it as root on a machine of your own.")
 
