@@ -56,11 +56,9 @@ void measure_rows(DistanceKind kind, std::span<Descriptors const* const> pool, i
                   DistanceMatrix& matrix) {
     assert(0 <= first && last <= static_cast<int>(pool.size()) && last <= matrix.size());
     switch (kind) {
-    case DistanceKind::adhoc: return measure_adhoc_rows(pool, first, last, matrix);
     case DistanceKind::hamming: return measure_hamming_rows(pool, first, last, matrix);
     case DistanceKind::trajectory: return measure_trajectory_rows(pool, first, last, matrix);
-    case DistanceKind::entropy: return measure_entropy_rows(pool, first, last, matrix);
-    default: return measure_rows_plainly(kind, pool, first, last, matrix);   // has no fast twin yet
+    default: return measure_rows_plainly(kind, pool, first, last, matrix);   // has no fast twin
     }
 }
 

@@ -5,8 +5,6 @@
 namespace lore {
 
 // The fast twins behind measure_rows, each with its contract.
-void measure_adhoc_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
-void measure_entropy_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 void measure_hamming_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 void measure_trajectory_rows(std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 

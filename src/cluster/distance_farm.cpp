@@ -17,7 +17,7 @@ int least_rows_to_share(DistanceKind kind) {
     switch (kind) {
     case DistanceKind::trajectory: return 32;
     case DistanceKind::hamming: return 256;
-    default: return std::numeric_limits<int>::max();   // a pair takes a few nanoseconds
+    default: return std::numeric_limits<int>::max();   // another takes no longer than to send it
     }
 }
 
@@ -94,6 +94,13 @@ void DistanceFarm::measure(DistanceKind kind, std::span<Descriptors const* const
     Stopwatch watch;
     measure_rows(kind, pool, known, size, matrix);
     state_.times.distances += watch.lap();
+}
+
+std::vector<double> DistanceFarm::means(DistanceKind kind, std::span<Descriptors const* const> pool) {
+    Stopwatch watch;
+    std::vector<double> means = mean_distances(kind, pool);
+    state_.times.distances += watch.lap();
+    return means;
 }
 
 void DistanceWorker::measure(Message const& message) {

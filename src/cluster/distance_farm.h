@@ -8,12 +8,14 @@
 namespace lore {
 
 /// Measures on all ranks (Farm::distances): each is given the pool and a range of rows, rank 0 too, of about equal
-/// area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough.
+/// area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough; others,
+/// and means, are rank 0's alone.
 class DistanceFarm : public DistanceMeasurer {
 public:
     explicit DistanceFarm(FarmState& state) : state_(state) {}
 
     void measure(DistanceKind, std::span<Descriptors const* const> pool, int known, DistanceMatrix&) override;
+    std::vector<double> means(DistanceKind, std::span<Descriptors const* const> pool) override;
 
 private:
     FarmState& state_;

@@ -76,11 +76,10 @@ Population join(Population parents, std::vector<Individual> children) {
 }
 
 /// Sets the diversity of every member within the pool.
-void set_diversity(Population& pool, DistanceKind kind, DistanceMatrix distances) {
-    pool.distances = std::move(distances);
+void set_diversity(Population& pool, DistanceKind kind, PoolDistances::Measured distances) {
+    pool.distances = std::move(distances.matrix);
     pool.distance_kind = kind;
-    std::vector<double> const diversity = pool.distances.means();
-    for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].diversity = diversity[i];
+    for (std::size_t i = 0; i < pool.members.size(); ++i) pool.members[i].diversity = distances.means[i];
 }
 
 /// RS of every member within the pool; only rule share looks at the others.
@@ -141,7 +140,7 @@ Population survivors(Population const& pool, std::vector<int> const& chosen) {
     Population next;
     next.generation = pool.generation;
     next.distance_kind = pool.distance_kind;
-    next.distances = pool.distances.select(chosen);
+    if (pool.distances.size() > 0) next.distances = pool.distances.select(chosen);
     for (int const i : chosen) next.members.push_back(pool.members[i]);
     return next;
 }

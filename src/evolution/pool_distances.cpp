@@ -1,5 +1,7 @@
 #include "pool_distances.h"
 
+#include <lore/behavior/mean_distances.h>
+
 #include <algorithm>
 #include <cassert>
 #include <numeric>
@@ -21,6 +23,7 @@ constexpr int largest_pool_measured_early = 1000;
 PoolDistances::PoolDistances(Population const& parents, int children, DistanceKind kind, DistanceMatrix spare)
     : kind_(kind), parents_(static_cast<int>(parents.members.size())),
       measured_(parents.distance_kind == kind ? parents.distances.size() : 0) {
+    if (is_euclidean(kind_)) return;
     DistanceMatrix const none;
     DistanceMatrix const& known = measured_ > 0 ? parents.distances : none;
     matrix_ = known.extended(parents_ + children - known.size(), std::move(spare));
@@ -40,7 +43,7 @@ void PoolDistances::idle() {
     if (early()) measure_if_waiting(enough_when_idle);
 }
 
-bool PoolDistances::early() const { return matrix_.size() <= largest_pool_measured_early; }
+bool PoolDistances::early() const { return !is_euclidean(kind_) && matrix_.size() <= largest_pool_measured_early; }
 
 void PoolDistances::measure_if_waiting(int least) {
     int const present = static_cast<int>(shown_.size());
@@ -49,9 +52,12 @@ void PoolDistances::measure_if_waiting(int least) {
     measured_ = present;
 }
 
-DistanceMatrix PoolDistances::finish(Population const& pool, DistanceMeasurer& measurer) && {
-    assert(static_cast<int>(pool.members.size()) == matrix_.size());
-    std::vector<int> place(pool.members.size(), -1);   // of a member in order_
+PoolDistances::Measured PoolDistances::finish(Population const& pool, DistanceMeasurer& measurer) && {
+    std::vector<Descriptors const*> members;
+    for (Individual const& member : pool.members) members.push_back(member.descriptors.get());
+    if (is_euclidean(kind_)) return {measurer.means(kind_, members), {}};
+    assert(static_cast<int>(members.size()) == matrix_.size());
+    std::vector<int> place(members.size(), -1);   // of a member in order_
     for (std::size_t k = 0; k < order_.size(); ++k) place[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
     for (std::size_t member = 0; member < place.size(); ++member)
         if (place[member] < 0) {
@@ -59,9 +65,10 @@ DistanceMatrix PoolDistances::finish(Population const& pool, DistanceMeasurer& m
             order_.push_back(static_cast<int>(member));
         }
     shown_.clear();
-    for (int const member : order_) shown_.push_back(pool.members[static_cast<std::size_t>(member)].descriptors.get());
+    for (int const member : order_) shown_.push_back(members[static_cast<std::size_t>(member)]);
     measurer.measure(kind_, shown_, measured_, matrix_);
-    return std::is_sorted(order_.begin(), order_.end()) ? std::move(matrix_) : matrix_.select(place);
+    if (!std::is_sorted(order_.begin(), order_.end())) matrix_ = matrix_.select(place);
+    return {matrix_.means(), std::move(matrix_)};
 }
 
 }   // namespace lore

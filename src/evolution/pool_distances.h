@@ -9,7 +9,7 @@
 namespace lore {
 
 /// The mutual distances of parents and children: of small pools measured while the last children are still being
-/// evaluated, of large ones afterwards.
+/// evaluated, of large ones afterwards. By Euclidean kinds only the means are found, afterwards.
 ///
 /// Each child is measured against all that completed before it: the order of completion decides when a pair is
 /// measured, and not its distance. Distances among parents are known from the last generation, unless the distance has
@@ -22,11 +22,15 @@ public:
     /// Called at most once for each child.
     void completed(int child, Evaluation const&) override;
     void idle() override;
-    /// The matrix of the whole pool, in its order, parents first; the measurer fills what is missing.
-    DistanceMatrix finish(Population const& pool, DistanceMeasurer&) &&;
+    struct Measured {
+        std::vector<double> means;   ///< BD of each member
+        DistanceMatrix matrix;       ///< empty by a Euclidean kind
+    };
+    /// Of the whole pool, in its order, parents first; the measurer measures what is missing.
+    Measured finish(Population const& pool, DistanceMeasurer&) &&;
 
 private:
-    bool early() const;   ///< or all are left to finish()
+    bool early() const;   ///< or all is left to finish()
     void measure_if_waiting(int least);
 
     DistanceKind kind_;

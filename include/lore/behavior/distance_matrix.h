@@ -50,7 +50,7 @@ private:
 void measure_rows_plainly(DistanceKind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 /// The fast path: every pair (i, j) with i in [first, last), j < i, of a pool, equal to distance() to the bit.
 /// A pure function of the row range, so that ranks can share the rows. Chooses its instruction set at run time.
-/// A kind that has no fast twin is measured plainly.
+/// A kind that has no fast twin is measured plainly; of Euclidean ones nobody needs a matrix (mean_distances.h).
 void measure_rows(DistanceKind, std::span<Descriptors const* const> pool, int first, int last, DistanceMatrix&);
 
 }   // namespace lore

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -142,18 +143,22 @@ LORE_INLINE F abs(F const& x) {
 template <class F>
 LORE_INLINE F sqrt(F const& x) {
     if constexpr (std::is_same_v<F, float>) return __builtin_sqrtf(x);
+    else if constexpr (std::is_same_v<F, double>) return __builtin_sqrt(x);
     else {
 #if defined(__AVX512F__)
-        if constexpr (LaneTraits<F>::width == 16) return (F)_mm512_maskz_sqrt_ps(0xffff, (__m512)x);
+        if constexpr (std::is_same_v<F, Lanes<float, 16>>) return (F)_mm512_maskz_sqrt_ps(0xffff, (__m512)x);
+        if constexpr (std::is_same_v<F, Lanes<double, 8>>) return (F)_mm512_maskz_sqrt_pd(0xff, (__m512d)x);
 #endif
 #if defined(__AVX__)
-        if constexpr (LaneTraits<F>::width == 8) return (F)_mm256_sqrt_ps((__m256)x);
+        if constexpr (std::is_same_v<F, Lanes<float, 8>>) return (F)_mm256_sqrt_ps((__m256)x);
+        if constexpr (std::is_same_v<F, Lanes<double, 4>>) return (F)_mm256_sqrt_pd((__m256d)x);
 #endif
 #if defined(__SSE2__)
-        if constexpr (LaneTraits<F>::width == 4) return (F)_mm_sqrt_ps((__m128)x);
+        if constexpr (std::is_same_v<F, Lanes<float, 4>>) return (F)_mm_sqrt_ps((__m128)x);
+        if constexpr (std::is_same_v<F, Lanes<double, 2>>) return (F)_mm_sqrt_pd((__m128d)x);
 #endif
         F root{};
-        for (int lane = 0; lane < LaneTraits<F>::width; ++lane) root[lane] = __builtin_sqrtf(x[lane]);
+        for (std::size_t lane = 0; lane < sizeof(F) / sizeof x[0]; ++lane) root[lane] = sqrt(x[lane]);
         return root;
     }
 }

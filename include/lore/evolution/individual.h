@@ -52,8 +52,8 @@ struct Individual {
 struct Population {
     int generation = 0;
     std::vector<Individual> members;
-    /// Of the members, by distance_kind. May be empty, since a checkpoint need not keep it: evolve then measures it
-    /// again, with the same result.
+    /// Of the members, by distance_kind. Empty by a Euclidean kind, which is measured anew every generation. May always
+    /// be empty, since a checkpoint need not keep it: evolve then measures it again, with the same result.
     DistanceMatrix distances;
     DistanceKind distance_kind = DistanceKind::adhoc;
 };

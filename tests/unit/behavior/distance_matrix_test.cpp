@@ -2,6 +2,7 @@
 #include "support/pointers.h"
 
 #include <lore/behavior/distance_matrix.h>
+#include <lore/behavior/mean_distances.h>
 #include <lore/core/isa.h>
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ DistanceMatrix by_definition(DistanceKind kind, std::vector<Descriptors> const& 
     return matrix;
 }
 
-/// Every kind, on every instruction set of this machine.
+/// Every kind, on every instruction set of this machine; of a Euclidean kind also the means.
 void expect_fast_equals_plain(std::vector<Descriptors> const& pool, std::vector<DistanceKind> const& kinds) {
     int const size = static_cast<int>(pool.size());
     for (DistanceKind const kind : kinds) {
@@ -38,6 +39,9 @@ void expect_fast_equals_plain(std::vector<Descriptors> const& pool, std::vector<
             DistanceMatrix fast(size);
             measure_rows(kind, pointers_to(pool), 0, size, fast);
             EXPECT_TRUE(fast == plain) << name(kind) << " of " << size << " on " << name(static_cast<Isa>(isa));
+            if (!is_euclidean(kind)) continue;
+            EXPECT_EQ(mean_distances(kind, pointers_to(pool)), plain.means())
+                << name(kind) << " of " << size << " on " << name(static_cast<Isa>(isa));
         }
         use_isa(detected_isa());
     }

@@ -48,6 +48,10 @@ public:
         measure_rows(kind, pool, known, middle, matrix);
     }
 
+    std::vector<double> means(DistanceKind kind, std::span<Descriptors const* const> pool) override {
+        return mean_distances(kind, pool);
+    }
+
     int evaluated() const { return evaluated_; }
     std::vector<int> const& measured_from() const { return measured_from_; }
 
