@@ -247,8 +247,9 @@ class Tables(LoreTest):
         table = lore.Table({"a": np.array([1, 2, 2]), "b": np.array(["x", "y", "z"])})
         self.assertEqual(table.where(a=2)["b"].tolist(), ["y", "z"])
         self.assertEqual(len(table.where(a=2, b="z")), 1)
-        with self.assertRaises(KeyError):
-            table.where(c=1)
+        for ask in (lambda: table["c"], lambda: table.where(c=1)):
+            with self.assertRaisesRegex(KeyError, "there is no column 'c', only a, b"):
+                ask()
         with self.assertRaises(ValueError):
             lore.Table({"a": np.zeros(2), "b": np.zeros(3)})
         try:

@@ -37,6 +37,9 @@ class Table:
         return list(self._columns)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        """Raises KeyError, with the names of the columns that there are."""
+        if name not in self._columns:
+            raise KeyError(f"there is no column '{name}', only {', '.join(self._columns) or 'none at all'}")
         return self._columns[name]
 
     def __contains__(self, name: object) -> bool:
@@ -55,7 +58,7 @@ class Table:
         """The rows whose columns have these values. Raises KeyError for a column that is not there."""
         keep = np.ones(len(self), bool)
         for name, value in equal.items():
-            keep &= self._columns[name] == value
+            keep &= self[name] == value
         return Table({name: column[keep] for name, column in self._columns.items()})
 
     def frame(self) -> pandas.DataFrame:
