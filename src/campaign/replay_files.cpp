@@ -37,7 +37,7 @@ Json list(Items const& items, Function const& text) {
 Json number(float value) { return std::stod(fmt::format("{}", value)); }
 
 Scene read_scene(Json const& json) {
-    Scene scene{json.at("width"), json.at("height"), json.at("svg")};
+    Scene scene{json.at("width"), json.at("height"), svg_or_nothing(json.at("svg"))};
     if (!(scene.width > 0 && scene.height > 0)) throw std::invalid_argument{"a world without extent"};
     return scene;
 }
@@ -65,12 +65,16 @@ std::string replay_text(std::vector<Replay> const& replays) {
     return text;
 }
 
-std::string values_text(std::vector<PanelValues> const& panels) {
+/// Balls need no more than four decimals; a value of another unit may be smaller than these.
+std::string values_text(std::vector<PanelValues> const& panels, bool arenas) {
+    auto const value_text = [=](double value) {
+        return std::isnan(value) ? std::string{} : arenas ? fmt::format("{:.4f}", value) : fmt::format("{}", value);
+    };
     std::string text = "figure,knowledge,window,value\n";
     for (PanelValues const& panel : panels)
         for (std::size_t w = 0; w < panel.values.size(); ++w)
             fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", panel.figure, panel.knowledge, w,
-                           std::isnan(panel.values[w]) ? "" : fmt::format("{:.4f}", panel.values[w]));
+                           value_text(panel.values[w]));
     return text;
 }
 
@@ -202,7 +206,8 @@ void write_replays(CampaignDirectory const& directory, Replays const& all) {
         throw Error(fmt::format("cannot make the directory {}", directory.path()), failed.message(),
                     "Choose another with --out.");
     write_file_atomically(directory.file("replay.csv"), std::string_view{replay_text(all.replays)});
-    write_file_atomically(directory.file("values.csv"), std::string_view{values_text(all.panels)});
+    write_file_atomically(directory.file("values.csv"),
+                          std::string_view{values_text(all.panels, all_in_arenas(all.replays))});
     write_file_atomically(directory.file("scene.json"), std::string_view{scenes_text(all)});
 }
 

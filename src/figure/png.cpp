@@ -2,6 +2,7 @@
 
 #include <lore/core/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -55,10 +56,10 @@ std::string render_png(std::string_view svg, double scale) {
     if (!handle) fail(message_of(error));
     double width = 0, height = 0;
     if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height)) fail("it has no size in pixels");
-    width = std::ceil(width * scale);
-    height = std::ceil(height * scale);
-    if (!(width >= 1 && height >= 1 && width <= largest_edge && height <= largest_edge))
-        fail(fmt::format("{} x {} pixels", width, height));
+    if (!(width > 0 && height > 0)) fail(fmt::format("{} x {} pixels", width, height));
+    scale = std::min({scale, largest_edge / width, largest_edge / height});
+    width = std::min(std::ceil(width * scale), largest_edge);
+    height = std::min(std::ceil(height * scale), largest_edge);
 
     std::unique_ptr<cairo_surface_t, Release> const surface{
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height))};

@@ -21,6 +21,9 @@ namespace {
 
 constexpr std::string_view ink = "#222222", pale = "#dddddd", source_color = "#777777", lead_color = "#999999";
 
+constexpr std::size_t colors = 7;    // that treatments can have
+constexpr double name_height = 16;   // of a line's name [pixels]
+
 /// The plotting area and its scales; the horizontal axis starts at 0.
 struct Frame {
     double left, right, top, bottom;   ///< pixels
@@ -44,8 +47,21 @@ std::vector<double> whole_ticks(double most) {
     return places;
 }
 
+std::vector<double> reward_ticks(Frame const& frame, bool counts) {
+    return counts ? whole_ticks(frame.y_most) : ticks(frame.y_least, frame.y_most, 8);
+}
+
+/// Moves the frame to the right where the labels of the reward axis would reach its title.
+void make_room_for_labels(Frame& frame, bool counts) {
+    std::size_t longest = 0;
+    for (double const tick : reward_ticks(frame, counts)) longest = std::max(longest, tick_label(tick).size());
+    double const more = std::max(0.0, 34 + 7.5 * static_cast<double>(longest) - frame.left);
+    frame.left += more;
+    frame.right += more;
+}
+
 void draw_reward_axis(SvgDocument& svg, Frame const& frame, bool counts, std::string_view what) {
-    for (double const tick : counts ? whole_ticks(frame.y_most) : ticks(frame.y_least, frame.y_most, 8)) {
+    for (double const tick : reward_ticks(frame, counts)) {
         if (tick > frame.y_least)
             svg.line({frame.left, frame.y(tick)}, {frame.right, frame.y(tick)}, {.stroke = pale, .width = 0.7});
         svg.text({frame.left - 8, frame.y(tick) + 4}, tick_label(tick), {.anchor = Anchor::end});
@@ -58,7 +74,7 @@ void draw_reward_axis(SvgDocument& svg, Frame const& frame, bool counts, std::st
 struct Curve {
     std::string label;
     std::string_view color;
-    bool dashed = false;
+    std::string_view dashes;
     std::vector<CurveRow const*> rows;
     double end() const { return rows.back()->generation; }
 };
@@ -80,6 +96,18 @@ std::vector<std::string> shown_names(CampaignPlan const& plan) {
     return names;
 }
 
+/// Whether the runs of a treatment or pool have the unit of the figures' axis, or there are none.
+bool has_unit_of_axis(CampaignPlan const& plan, Results const& results, std::string const& name) {
+    std::string const unit = results.reward_unit(plan);
+    return results.unit_of(first_treatment(plan, name)).value_or(unit) == unit;
+}
+
+/// Tells the i-th treatment's line from those of the same color.
+std::string_view treatment_dashes(std::size_t i) {
+    static constexpr std::array<std::string_view, 5> patterns{"", "6 4", "2 2", "9 3 2 3", "9 2 2 2 2 2"};
+    return patterns[i / colors % patterns.size()];
+}
+
 /// One a treatment or pool that has runs: those of source tasks whose reward has the same unit, then those of the
 /// report's order.
 std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
@@ -90,23 +118,24 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
     if (last < 0) last = std::numeric_limits<int>::max();
 
     std::vector<Curve> curves;
-    std::string const unit = results.reward_unit(plan);
-    auto const add = [&](std::string const& name, std::string const& label, std::string_view color, bool dashed) {
-        if (results.unit_of(first_treatment(plan, name)).value_or(unit) != unit) return;   // another axis
-        Curve curve{label, color, dashed, {}};
+    auto const add = [&](std::string const& name, std::string const& label, std::string_view color,
+                         std::string_view dashes) {
+        if (!has_unit_of_axis(plan, results, name)) return;
+        Curve curve{label, color, dashes, {}};
         for (CurveRow const& row : results.curves)
             if (row.treatment == name && row.generation <= last) curve.rows.push_back(&row);
         if (curve.rows.empty()) return;
         curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
         curves.push_back(std::move(curve));
     };
-    for (Treatment const& source : plan.sources) add(source.name, source.label, source_color, true);
+    for (Treatment const& source : plan.sources) add(source.name, source.label, source_color, "6 4");
     std::vector<std::string> const names = shown_names(plan);
-    for (std::size_t i = 0; i < names.size(); ++i) add(names[i], plan.label(names[i]), treatment_color(i), i >= 7);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        add(names[i], plan.label(names[i]), treatment_color(i), treatment_dashes(i));
     return curves;
 }
 
-Paint line_of(Curve const& curve) { return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashed ? "6 4" : ""}; }
+Paint line_of(Curve const& curve) { return {.stroke = curve.color, .width = 1.8, .dashes = curve.dashes}; }
 
 /// Moves labels apart, keeping their order, as little as two sweeps can.
 std::vector<double> spread(std::vector<double> const& wished, double gap, double top, double bottom) {
@@ -180,15 +209,25 @@ void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double
 }   // namespace
 
 std::string_view treatment_color(std::size_t i) {
-    static constexpr std::array<std::string_view, 7> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00",
-                                                               "#0072b2", "#009e73", "#cc79a7"};
+    static constexpr std::array<std::string_view, colors> okabe_ito{"#000000", "#56b4e9", "#e69f00", "#d55e00",
+                                                                    "#0072b2", "#009e73", "#cc79a7"};
     return okabe_ito[i % okabe_ito.size()];
+}
+
+std::vector<std::string> labels_of_other_units(CampaignPlan const& plan, Results const& results) {
+    std::vector<std::string> labels;
+    for (std::string const& name : shown_names(plan))
+        if (!has_unit_of_axis(plan, results, name)) labels.push_back(plan.label(name));
+    return labels;
 }
 
 std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     std::vector<Curve> const curves = curves_of(plan, results);
     RewardWords const words = reward_words(results.reward_unit(plan));
     Frame frame{64, 640, 24, 420, 1, 1};
+    // The lines' names stand below each other.
+    frame.bottom = std::max(
+        frame.bottom, frame.top + 4 + name_height * (static_cast<double>(std::max<std::size_t>(curves.size(), 1)) - 1));
     bool const counts = results.are_counts();
     double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
     for (Curve const& curve : curves) {
@@ -200,10 +239,11 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     }
     if (counts) frame.y_most = std::ceil(std::max(frame.y_most, most));
     else if (!curves.empty()) fit(frame, least, most);
+    make_room_for_labels(frame, counts);
 
-    double width = 856;
+    double width = frame.right + 216;
     for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + 1.1 * text_width(curve.label));
-    SvgDocument svg{width, 476, fmt::format("Mean {} of the best-of-run by generation", words.number_of)};
+    SvgDocument svg{width, frame.bottom + 56, fmt::format("Mean {} of the best-of-run by generation", words.number_of)};
     draw_reward_axis(svg, frame, counts, words.collected + " (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
         svg.line({frame.x(tick), frame.bottom}, {frame.x(tick), frame.bottom + 5}, {.stroke = ink});
@@ -227,7 +267,7 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     }
     // The lines are named at the right, with a piece of the line before the name; dots lead from where a line ends to
     // its name, and must not look like data where runs of fewer generations end early.
-    std::vector<double> const placed = spread(ends, 16, frame.top + 4, frame.bottom);
+    std::vector<double> const placed = spread(ends, name_height, frame.top + 4, frame.bottom);
     for (std::size_t i = 0; i < curves.size(); ++i) {
         SvgPoint const end{frame.x(curves[i].end()) + 2, ends[i]}, key{frame.right + 16, placed[i]};
         svg.line(end, key, {.stroke = lead_color, .width = 0.8, .dashes = "1 3"});
@@ -253,7 +293,7 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     std::vector<std::string> const names = shown_names(plan);
     for (std::size_t i = 0; i < names.size(); ++i) {
         auto rewards = rewards_of(plan, results, names[i]);
-        if (rewards.empty()) continue;
+        if (rewards.empty() || !has_unit_of_axis(plan, results, names[i])) continue;
         highest = std::max(highest, *std::max_element(rewards.begin(), rewards.end()));
         lowest = std::min(lowest, *std::min_element(rewards.begin(), rewards.end()));
         boxes.push_back({names[i], plan.label(names[i]), treatment_color(i), std::move(rewards)});
@@ -277,7 +317,8 @@ std::string draw_boxplots(CampaignPlan const& plan, Results const& results,
     Frame frame{64, right, top, top + 340, 1, 1};
     if (counts) frame.y_most = std::max(1.0, highest) + 0.4;   // room for the highest points' radius
     else if (!boxes.empty()) fit(frame, lowest, highest);
-    SvgDocument svg{right + 20, frame.bottom + 56,
+    make_room_for_labels(frame, counts);
+    SvgDocument svg{frame.right + 20, frame.bottom + 56,
                     fmt::format("{} of the best-of-run at the last generation", capital(words.collected))};
     draw_reward_axis(svg, frame, counts, words.collected + " (best-of-run)");
     auto const center = [&](std::size_t i) { return frame.left + slot * (static_cast<double>(i) + 0.5); };

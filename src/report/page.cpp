@@ -1,5 +1,6 @@
 #include "page.h"
 
+#include "chart.h"
 #include "panels.h"
 #include "html.h"
 #include "page_parts.h"
@@ -10,6 +11,7 @@
 #include <lore/experiment/version.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 
 #include <fmt/format.h>
@@ -41,25 +43,58 @@ std::string commands(CampaignPlan plan, Results const& results) {
     return text;
 }
 
+/// As in a URL.
+std::string percent_encoded(std::string_view content) {
+    std::string out;
+    for (char const c : content) {
+        bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        if (letter || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~') out += c;
+        else out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
+}
+
+/// How a figure stands in the page.
+enum class Embedding : std::uint8_t {
+    part,   ///< of the page: its text can be marked
+    image   ///< of what others give, such as a world's scene: an image runs no scripts
+};
+
 /// "" if this report does not have the figure. `block`: of the caption.
-std::string figure(Figures const& figures, std::string const& name, std::string_view block, Places const& of_caption) {
+std::string figure(Figures const& figures, std::string const& name, std::string_view block, Places const& of_caption,
+                   Embedding embedding = Embedding::part) {
     auto const found = figures.find(name);
     if (found == figures.end()) return "";
     std::string caption = filled(block, of_caption);
     caption.pop_back();   // its line's end
     // In a page a document's own heading has no place, and ids must not repeat.
-    std::string const svg = with_own_ids(found->second.substr(found->second.find("<svg")), fmt::format("{}-", name));
+    std::string const svg =
+        embedding == Embedding::image
+            ? fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml,{}\">\n", name, percent_encoded(found->second))
+            : with_own_ids(found->second.substr(found->second.find("<svg")), fmt::format("{}-", name));
     return filled("figure", {{"name", name}, {"svg", svg}, {"caption", caption}});
-}
-
-std::string figure(Figures const& figures, std::string const& name, Places const& of_caption) {
-    return figure(figures, name, name, of_caption);
 }
 
 /// Of the rewards on all target tasks.
 RewardWords words_of(CampaignPlan const& plan, Results const& results) {
     return results.has_several_units(plan) ? words_of_any_reward() : reward_words(results.reward_unit(plan));
 }
+
+/// What a caption says of treatments that have no place on its axis; "" if there are none.
+std::string left_out(CampaignPlan const& plan, Results const& results) {
+    std::vector<std::string> const labels = labels_of_other_units(plan, results);
+    return labels.empty() ? ""
+                          : escaped(fmt::format("Left out, as rewards of another unit: {}.", fmt::join(labels, ", ")));
+}
+
+/// Tables show all treatments, whatever the figures show.
+CampaignPlan with_all_shown(CampaignPlan plan) {
+    plan.figures.figure3.clear();
+    return plan;
+}
+
+/// After a sentence.
+std::string after_space(std::string const& sentence) { return sentence.empty() ? "" : ' ' + sentence; }
 
 /// Figures 3 and 4, of each target task.
 std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
@@ -69,6 +104,7 @@ std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
         Places const places{{"number_of", escaped(capital(words.number_of))},
                             {"collected", escaped(capital(words.collected))},
                             {"source", words.source},
+                            {"left_out", after_space(left_out(part.plan, part.results))},
                             {"task", escaped(part.label)}};
         std::string_view const of_task = part.task.empty() ? "" : "_task";
         for (std::string const name : {"figure3", "figure4"})
@@ -86,7 +122,7 @@ std::string matrix(CampaignPlan const& plan, std::vector<MatrixField> const& fie
                          {"n_none", count_text(fields, &MatrixField::n_none)},
                          {"misfit", capital(misfit_word)}};
     return filled("matrix_section",
-                  {{"figure", figure(figures, "matrix", caption)}, {"table", matrix_table(plan, fields)}});
+                  {{"figure", figure(figures, "matrix", "matrix", caption)}, {"table", matrix_table(plan, fields)}});
 }
 
 std::string significance(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& comparisons) {
@@ -94,9 +130,13 @@ std::string significance(CampaignPlan const& plan, Results const& results, std::
     if (!plan.tasks.empty())
         return filled("significance_tasks", {{"pairs", pairs_table(plan, comparisons, "pairs", Spacing::dense)}});
     RewardWords const words = reward_words(results.reward_unit(plan));
-    return filled("significance", {{"gets_more", escaped(words.gets_more)},
-                                   {"square", p_value_square(plan, comparisons)},
-                                   {"pairs", pairs_table(plan, comparisons)}});
+    std::string const square = p_value_square(plan, comparisons);
+    bool const has_untested = square.find("<td>-</td>") != std::string::npos;
+    return filled("significance",
+                  {{"gets_more", escaped(words.gets_more)},
+                   {"untested", has_untested ? " -: not tested, as the rewards have different units." : ""},
+                   {"square", square},
+                   {"pairs", pairs_table(plan, comparisons)}});
 }
 
 std::string pools(CampaignPlan const& plan, Results const& results, std::vector<Comparison> const& planned) {
@@ -126,13 +166,15 @@ std::string populations(CampaignPlan const& plan, Results const& results) {
                                                                {"populations", populations_table(plan, results)}});
 }
 
-/// A table a named target task: levels and lengths are those of the task.
+/// A table a target task: levels and lengths are those of the task.
 std::string speeds_by_task(std::vector<TaskPart> const& parts, std::string leads) {
     std::string tables;
     for (TaskPart const& part : parts) {
         if (part.results.speeds.empty()) continue;
+        std::string const others = left_out(with_all_shown(part.plan), part.results);
         tables += filled("speed_task",
-                         {{"task", escaped(part.label)},
+                         {{"task", part.task.empty() ? "Treatments without a named task" : escaped(part.label)},
+                          {"left_out", others.empty() ? "" : filled("speed_task_left_out", {{"left_out", others}})},
                           {"unit", escaped(part.results.reward_unit(part.plan))},
                           {"generations", std::to_string(part.results.speeds.front().generations)},
                           {"speeds", speeds_table(part.plan, part.results, fmt::format("speeds-{}", part.task))}});
@@ -150,11 +192,19 @@ std::string speeds(CampaignPlan const& plan, Results const& results, std::vector
     if (!plan.tasks.empty()) return speeds_by_task(parts, leads);
     std::vector<std::string> levels;
     for (TimeToLevel const& to : results.speeds.front().to) levels.push_back(reward_text(to.level));
+    std::string const generations = std::to_string(results.speeds.front().generations);
+    std::string times;   // there are none where all runs end with the same reward
+    if (!levels.empty()) {
+        times = filled("speed_times", {{"levels", fmt::format("{}", fmt::join(levels, ", "))},
+                                       {"so_much", words.so_much},
+                                       {"generations", generations}});
+        times.back() = ' ';   // its line's end
+    }
     return filled("speed", {{"noun", words.noun},
                             {"unit", escaped(words.unit)},
-                            {"so_much", words.so_much},
-                            {"levels", fmt::format("{}", fmt::join(levels, ", "))},
-                            {"generations", std::to_string(results.speeds.front().generations)},
+                            {"times", times},
+                            {"left_out", after_space(left_out(with_all_shown(plan), results))},
+                            {"generations", generations},
                             {"speeds", speeds_table(plan, results)},
                             {"leads", leads}});
 }
@@ -188,35 +238,36 @@ std::string report_page(CampaignPlan const& plan, Results const& results, Findin
     std::string const missing = what_is_missing(plan, results);
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
+    bool const worlds = shows_worlds(results);
+    Embedding const embedding = worlds ? Embedding::image : Embedding::part;
     // A new part is a function here, a place in page.html.in, and a block there for what stands around it.
     return filled(
-        "page",
-        {{"title", escaped(plan.title)},
-         {"css", style(plan, results)},
-         {"js", std::string{report_js} + std::string{shows_worlds(results) ? world_replay_js : arena_replay_js}},
-         {"finished", std::to_string(results.runs.size())},
-         {"planned", std::to_string(runs)},
-         {"generation", std::to_string(results.last_generation())},
-         {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
-         {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
-         {"matrix", matrix(plan, findings.matrix, figures)},
-         {"collected", escaped(capital(words.collected))},
-         {"treatments", treatments_table(plan, results)},
-         {"curves", curves(findings.parts, figures)},
-         {"speed", speeds(plan, results, findings.parts)},
-         {"pools", pools(plan, results, findings.planned)},
-         {"significance", significance(plan, results, findings.comparisons)},
-         {"bases", bases(plan, results)},
-         {"figure5", figure(figures, "figure5",
-                            {{"run", trajectory}, {"not_found", shows_worlds(results) ? "" : " (-1: not found)"}})},
-         {"figure6",
-          figure(figures, "figure6", {{"not_found", shows_worlds(results) ? "" : " (0: not found in one of them)"}})},
-         {"replay", replay_section(plan, results)},
-         {"population", populations(plan, results)},
-         {"runs", runs_table(plan, results)},
-         {"versions", escaped(versions(results))},
-         {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
-         {"commands", escaped(commands(plan, results))}});
+        "page", {{"title", escaped(plan.title)},
+                 {"css", style(plan, results)},
+                 {"js", std::string{report_js} + std::string{worlds ? world_replay_js : arena_replay_js}},
+                 {"finished", std::to_string(results.runs.size())},
+                 {"planned", std::to_string(runs)},
+                 {"generation", std::to_string(results.last_generation())},
+                 {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
+                 {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
+                 {"matrix", matrix(plan, findings.matrix, figures)},
+                 {"collected", escaped(capital(words.collected))},
+                 {"treatments", treatments_table(plan, results)},
+                 {"curves", curves(findings.parts, figures)},
+                 {"speed", speeds(plan, results, findings.parts)},
+                 {"pools", pools(plan, results, findings.planned)},
+                 {"significance", significance(plan, results, findings.comparisons)},
+                 {"bases", bases(plan, results)},
+                 {"figure5", figure(figures, "figure5", "figure5",
+                                    {{"run", trajectory}, {"not_found", worlds ? "" : " (-1: not found)"}}, embedding)},
+                 {"figure6", figure(figures, "figure6", "figure6",
+                                    {{"not_found", worlds ? "" : " (0: not found in one of them)"}}, embedding)},
+                 {"replay", replay_section(plan, results)},
+                 {"population", populations(plan, results)},
+                 {"runs", runs_table(plan, results)},
+                 {"versions", escaped(versions(results))},
+                 {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
+                 {"commands", escaped(commands(plan, results))}});
 }
 
 }   // namespace lore

@@ -23,7 +23,8 @@ std::string pairs_table(CampaignPlan const&, std::vector<Comparison> const&, std
                         Spacing = Spacing::usual);
 std::string matrix_table(CampaignPlan const&, std::vector<MatrixField> const&);
 std::string pools_table(CampaignPlan const&, Results const&);
-/// The appendix's square: every treatment against every other.
+/// The appendix's square: every treatment against every other; "-" where two were not tested, since their rewards have
+/// different units.
 std::string p_value_square(CampaignPlan const&, std::vector<Comparison> const&);
 
 /// The section with the robot to play, and the data that the page's script plays.

@@ -85,10 +85,10 @@ std::string matrix_table(CampaignPlan const& plan, std::vector<MatrixField> cons
         {"knowledge of", [&](Row const& f) { return plan.treatment(f.pair.source).label; }, true},
         {"runs on", [&](Row const& f) { return plan.task(f.pair.target).label; }, true},
         {"with", if_any([](Row const& f) {
-             return HtmlCell{reward_text(f.mean), "", fmt::format("n = {}", f.n)};
+             return HtmlCell{reward_text(f.mean), fmt::format("{}", f.mean), fmt::format("n = {}", f.n)};
          })},
         {"without", if_any([](Row const& f) {
-             return HtmlCell{reward_text(f.mean_none), "", fmt::format("n = {}", f.n_none)};
+             return HtmlCell{reward_text(f.mean_none), fmt::format("{}", f.mean_none), fmt::format("n = {}", f.n_none)};
          })},
         {"difference", if_any([](Row const& f) {
              return HtmlCell{difference_text(f), fmt::format("{}", f.difference), difference_band_text(f)};
@@ -141,7 +141,7 @@ std::string p_value_square(CampaignPlan const& plan, std::vector<Comparison> con
                 return (c.a == row && c.b == column) || (c.a == column && c.b == row);
             });
             if (found == comparisons.end()) {
-                html += "<td>1</td>";
+                html += row == column ? "<td>1</td>" : "<td>-</td>";
                 continue;
             }
             std::string_view const mark = significance_mark(found->p);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -90,18 +91,27 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings 
     return figures;
 }
 
-void write_figures(CampaignDirectory const& into, Figures const& figures) {
+/// Whether a report of this campaign can have a figure of that name.
+bool is_figure(CampaignPlan const& plan, std::string_view name) {
+    std::vector<std::string> names{"matrix", "figure3", "figure4", "figure5", "figure6"};
+    for (Treatment const& task : plan.tasks)
+        for (std::string_view const figure : {"figure3", "figure4"})
+            names.push_back(fmt::format("{}_{}", figure, task.name));
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void write_figures(CampaignPlan const& plan, CampaignDirectory const& into, Figures const& figures,
+                   std::map<std::string, std::string> const& pngs) {
     // Figures of a former report that this one does not have would pass for its own.
     for (DirectoryEntry const& entry : entries_in(into.file("figures"))) {
         std::filesystem::path const path{entry.path};
         std::string const name = path.stem().string();
         bool const is_picture = path.extension() == ".svg" || path.extension() == ".png";
-        if (is_picture && (name.starts_with("figure") || name == "matrix") && !figures.contains(name))
-            remove_file(entry.path);
+        if (is_picture && is_figure(plan, name) && !figures.contains(name)) remove_file(entry.path);
     }
     for (auto const& [name, svg] : figures) {
         write_text(into, fmt::format("figures/{}.svg", name), svg);
-        write_file_atomically(into.file(fmt::format("figures/{}.png", name)), std::string_view{render_png(svg)});
+        write_text(into, fmt::format("figures/{}.png", name), pngs.at(name));
     }
 }
 
@@ -131,13 +141,18 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
     CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
     if (!has_runs) check_results(plan, results);
     Findings const findings = findings_of(plan, results);
+    // All before the first is written: a report half of which is of a former one would pass for a whole one.
     Figures const figures = draw_figures(plan, results, findings);
+    std::map<std::string, std::string> pngs;
+    for (auto const& [name, svg] : figures) pngs[name] = render_png(svg);
+    std::string const summary = summary_json(plan, results, findings),
+                      page = report_page(plan, results, findings, figures);
     write_text(into, "pvalues.csv", comparisons_csv(findings.comparisons));
     write_pools(plan, into, findings.planned);
     write_matrix(into, findings.matrix);
-    write_text(into, "summary.json", summary_json(plan, results, findings));
-    write_figures(into, figures);
-    write_text(into, "report.html", report_page(plan, results, findings, figures));
+    write_text(into, "summary.json", summary);
+    write_figures(plan, into, figures, pngs);
+    write_text(into, "report.html", page);
     return what_is_missing(plan, results);
 }
 

@@ -134,9 +134,13 @@ void add_speeds(CampaignPlan const& plan, std::vector<RewardCurves> const& targe
     std::vector<Milestone> milestones;
     for (TaskGroup const& group : task_groups(plan)) {
         std::vector<RewardCurves> of_task;
-        for (RewardCurves const& target : targets)
-            if (std::find(group.treatments.begin(), group.treatments.end(), target.name) != group.treatments.end())
+        for (RewardCurves const& target : targets) {
+            if (std::find(group.treatments.begin(), group.treatments.end(), target.name) == group.treatments.end())
+                continue;
+            // Nor are rewards of different units: the first one's counts, as in figures 3 and 4.
+            if (of_task.empty() || results.unit_of(target.name) == results.unit_of(of_task.front().name))
                 of_task.push_back(target);
+        }
         add_speeds(plan, of_task, results, milestones);
     }
     results.leads = leads_of(plan, milestones);

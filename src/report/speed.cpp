@@ -114,7 +114,7 @@ std::vector<LeadRow> leads_of(CampaignPlan const& plan, std::vector<Milestone> c
         if (policy == nullptr) continue;
         Treatment const* const none = find_target(plan, [&](Treatment const& t) {
             return bases_of(t).empty() && t.policy_of.empty() && t.config == policy->config &&
-                   t.target == policy->target;
+                   t.target == policy->target && t.overrides == policy->overrides;
         });
         if (none == nullptr) continue;
         for (Milestone const& milestone : milestones) {

@@ -62,7 +62,7 @@ struct LeadRow {
 
 /// Every target treatment that takes bases beside the policy treatment of the same source runs, at the generations of
 /// the milestones, in the report's order. Left out are generations at which the policy does not lead. No transfer is
-/// the first treatment in that order that takes nothing, with the policy's configuration.
+/// the first treatment in that order that takes nothing, with the policy's configuration and overrides.
 std::vector<LeadRow> leads_of(CampaignPlan const&, std::vector<Milestone> const&);
 
 }   // namespace lore

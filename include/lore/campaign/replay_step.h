@@ -8,7 +8,7 @@
 namespace lore {
 
 /// Why the files of the step "replay" in `into` do not show what is there by now in the campaign's directory `from`:
-/// "not made yet", "kb1/007 is better than kb1/003". Nothing if they do, or if there is nothing to show yet.
+/// "not made yet", "it should show kb1/007". Nothing if they do, or if there is nothing to show yet.
 std::optional<std::string> replay_is_due(CampaignPlan const&, CampaignDirectory const& from,
                                          CampaignDirectory const& into);
 

@@ -13,7 +13,10 @@ struct Scene {
     friend bool operator==(Scene const&, Scene const&) = default;
 };
 
-/// A scene_svg that is no SVG element is left out: a picture without it is better than none.
+/// What a world or a file gives as Scene::svg, or "" where it is no SVG: a picture without it is better than none.
+std::string svg_or_nothing(std::string svg);
+
+/// With svg_or_nothing of the world's scene_svg.
 Scene scene_of(World const&);
 
 }   // namespace lore

@@ -61,7 +61,8 @@ private:
 /// Why librsvg cannot read the text as an SVG document, or "" if it can.
 std::string why_no_svg(std::string_view text);
 
-/// PNG bytes of an SVG document, `scale` pixels per user unit (librsvg behind this door). Throws Error.
+/// PNG bytes of an SVG document, `scale` pixels per user unit, fewer where an edge would be longer than 16384 pixels
+/// (librsvg behind this door). Throws Error.
 std::string render_png(std::string_view svg, double scale = 1.5);
 
 }   // namespace lore

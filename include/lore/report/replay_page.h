@@ -7,7 +7,7 @@
 
 namespace lore {
 
-/// The replays as the scripts of the page play them (src/arena_view/replay.js, src/report/world_replay.js), a JSON
+/// The replays as the scripts of the page play them (src/arena_view/replay.js, src/figure/world_replay.js), a JSON
 /// text: for pages other than the report's.
 std::string replay_json(std::vector<Replay> const&);
 

@@ -217,7 +217,7 @@ TEST_F(ReplayStepTest, keeps_positions_rewards_and_the_scene_of_other_worlds) {
                         {2, 1, "<g id=\"pole\"/>"},
                         {{0.5f, 0.001f, 0}, {0.625f, 0.25f, -1.5}},
                         {}};
-    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, none}, "c"}}});
+    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.0000125, none}, "c"}}});
     EXPECT_EQ(read(directory().file("replay.csv")),
               "replay,step,x,y,reward\nsource/001,0,0.5,0.001,0\nsource/001,1,0.625,0.25,-1.5\n");
     Replays const shown = read_replays(directory());
@@ -229,6 +229,12 @@ TEST_F(ReplayStepTest, keeps_positions_rewards_and_the_scene_of_other_worlds) {
     EXPECT_EQ(shown.replays[0].steps[0].y, 0.001f);
     EXPECT_EQ(shown.replays[0].steps[1].reward, -1.5);
     ASSERT_EQ(shown.panels.size(), 1u);
-    EXPECT_EQ(shown.panels[0].values[0], -0.5);
+    EXPECT_EQ(shown.panels[0].values[0], -0.0000125) << "with all its digits";
     EXPECT_TRUE(std::isnan(shown.panels[0].values[1]));
+}
+
+TEST_F(ReplayStepTest, leaves_out_a_scene_of_a_file_that_is_no_svg) {
+    Replay const replay{"source/001", "00000000000000aa", "cos", {2, 1, "</svg><script>"}, {{0.5f, 0.5f, 0}}, {}};
+    write_replays(directory(), {{replay}, {}});
+    EXPECT_EQ(read_replays(directory()).replays.at(0).scene, (Scene{2, 1, ""}));
 }

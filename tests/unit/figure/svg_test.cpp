@@ -52,7 +52,11 @@ TEST(RenderPng, gives_a_picture_of_the_scaled_size) {
 TEST(RenderPng, refuses_what_is_no_svg) {
     EXPECT_THROW(render_png("no svg"), Error);
     EXPECT_THROW(render_png(""), Error);
-    EXPECT_THROW(render_png("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"100\"/>", 1e9), Error);
+}
+
+TEST(RenderPng, has_fewer_pixels_where_an_edge_would_be_too_long) {
+    EXPECT_EQ(png_size(render_png(SvgDocument{20000, 50, "wide"}.finish())), (std::pair{16384, 41}));
+    EXPECT_EQ(png_size(render_png(SvgDocument{1, 100, "tall"}.finish(), 1e9)), (std::pair{164, 16384}));
 }
 
 }   // namespace

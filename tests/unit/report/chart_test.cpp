@@ -136,6 +136,56 @@ TEST(Curves, end_with_the_runs_on_the_target_task_however_long_source_runs_are) 
     EXPECT_EQ(occurrences(svg, "<polygon"), 2);
 }
 
+/// So many treatments with two runs each that end at rewards from 0 to 5.
+std::pair<CampaignPlan, Results> many(int treatments) {
+    CampaignPlan plan;
+    Results results;
+    for (int t = 0; t < treatments; ++t) {
+        Treatment treatment;
+        treatment.name = treatment.label = "t" + std::to_string(t);
+        plan.targets.push_back(treatment);
+        plan.report_order.push_back(treatment.name);
+        double const reward = t % 6;
+        for (int run = 1; run <= 2; ++run) results.runs.push_back({treatment.name, run, 1, reward, 0, 0, "", ""});
+        for (int g : {0, 100}) results.curves.push_back({treatment.name, g, 2, reward, reward, reward});
+    }
+    return {plan, results};
+}
+
+TEST(Curves, have_a_frame_that_grows_with_the_names_and_dashes_that_tell_colors_apart) {
+    auto const height = [](std::string const& svg) { return std::stod(svg.substr(svg.find("height=\"") + 8)); };
+    auto const [some, of_some] = many(25);
+    EXPECT_EQ(height(draw_curves(some, of_some)), 476) << "as long as the names fit";
+    auto const [plan, results] = many(40);
+    std::string const svg = draw_curves(plan, results);
+    EXPECT_GT(height(svg), 476);
+    expect_inside(svg);
+    for (char const* dashes : {"6 4", "2 2", "9 3 2 3", "9 2 2 2 2 2"})
+        EXPECT_GT(occurrences(svg, std::string{"stroke-dasharray=\""} + dashes + "\""), 0) << dashes;
+}
+
+TEST(Figures, make_room_for_long_labels_of_the_reward_axis_alone) {
+    auto [plan, results] = many(2);
+    EXPECT_EQ(occurrences(draw_boxplots(plan, results, {}), "<line x1=\"64\""), 3) << "a tick, and the axes";
+    for (RunRow& run : results.runs) run.reward *= 250000;
+    for (CurveRow& row : results.curves) row.mean = row.low = row.high = row.mean * 250000;
+    for (std::string const& svg : {draw_boxplots(plan, results, {}), draw_curves(plan, results)}) {
+        EXPECT_EQ(occurrences(svg, ">200000</text>"), 1);
+        EXPECT_EQ(occurrences(svg, "<line x1=\"64\""), 0);
+        EXPECT_GT(occurrences(svg, "<line x1=\"79\""), 0);
+    }
+}
+
+TEST(Figures, leave_out_treatments_of_another_unit_and_name_them) {
+    auto [plan, results] = many(3);
+    EXPECT_TRUE(labels_of_other_units(plan, results).empty());
+    for (RunRow& run : results.runs)
+        if (run.treatment == "t1") run.reward_unit = "cos";
+    EXPECT_EQ(occurrences(draw_boxplots(plan, results, {}), "<circle"), 4);
+    EXPECT_EQ(occurrences(draw_curves(plan, results), "<polygon"), 2);
+    EXPECT_EQ(labels_of_other_units(plan, results), (std::vector<std::string>{"t1"}));
+}
+
 TEST(Curves, say_so_where_there_is_nothing_to_draw) {
     EXPECT_EQ(occurrences(draw_curves(two_treatments(), Results{}), "no finished run yet"), 1);
     EXPECT_EQ(occurrences(draw_boxplots(two_treatments(), Results{}, {}), "no finished run yet"), 1);

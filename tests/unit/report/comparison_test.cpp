@@ -1,5 +1,6 @@
 #include "comparison.h"
 #include "findings.h"
+#include "page_parts.h"
 #include "summary.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +55,19 @@ TEST(Comparison, corrects_for_all_pairs) {
 TEST(Comparison, writes_the_promised_columns) {
     auto const comparisons = compare_treatments(three_treatments(), results_with({{"a", {1, 1}}, {"b", {1, 1}}}));
     EXPECT_EQ(comparisons_csv(comparisons), "a,b,n_a,n_b,u,p,p_holm,a12\na,b,2,2,2,1,1,0.5\n");
+}
+
+TEST(Comparison, is_not_shown_where_it_was_not_made) {
+    CampaignPlan plan = three_treatments();
+    Treatment fourth = plan.targets.front();
+    fourth.name = fourth.label = "d";
+    plan.targets.push_back(fourth);
+    plan.report_order.push_back("d");
+    Results results = results_with({{"a", {1, 2}}, {"b", {3, 4}}, {"c", {5, 6}}, {"d", {7, 8}}});
+    for (RunRow& run : results.runs)
+        if (run.treatment >= "c") run.reward_unit = "cos";
+    std::string const square = p_value_square(plan, compare_treatments(plan, results));
+    EXPECT_NE(square.find(">a</th><td>1</td><td>0.333</td><td>-</td><td>-</td>"), std::string::npos) << square;
 }
 
 TEST(Pools, take_runs_together_and_correct_for_their_planned_comparisons_alone) {

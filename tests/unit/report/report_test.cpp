@@ -19,8 +19,8 @@ protected:
         return read(scratch.file(where + "/" + name));
     }
     /// In place of what the fake made up: no ball at first, then so many until generation 20.
-    void write_rewards(std::string const& step, double reward) const {
-        std::string table = progress_header(first_reward_unit) + "\n";
+    void write_rewards(std::string const& step, double reward, std::string_view unit = first_reward_unit) const {
+        std::string table = progress_header(unit) + "\n";
         for (int generation = 0; generation <= 20; ++generation) {
             GenerationSummary row;
             row.generation = generation;
@@ -85,7 +85,9 @@ TEST_F(Report, keeps_no_figure_of_a_former_one) {
     ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
     std::filesystem::create_directories(scratch.file("c/figures"));
     write("c/figures/figure5.svg", "of a campaign with other bases");
+    write("c/figures/figure3_for_a_talk.svg", "of the user");
     write_report(plan(), directory());
+    EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3_for_a_talk.svg")));
     EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
     EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3.svg")));
 }
@@ -320,6 +322,34 @@ TEST_F(Report, compares_no_treatments_of_different_units) {
     std::string const pairs = made("pvalues.csv", "out");
     EXPECT_EQ(std::count(pairs.begin(), pairs.end(), '\n'), 2) << pairs;
     EXPECT_NE(pairs.find("\nnone,kb1,1,1,"), std::string::npos) << pairs;
+    std::string const page = made("report.html", "out");
+    EXPECT_THAT(page, ::testing::Not(::testing::HasSubstr("not tested"))) << "of two treatments that were";
+    EXPECT_THAT(page, ::testing::HasSubstr("comparisons. Left out, as rewards of another unit: all.</figcaption>"));
+}
+
+TEST_F(Report, times_no_treatments_of_different_units_together) {
+    RunnerOptions some = options();
+    some.only = {"none"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    write_report(plan(), directory());
+    EXPECT_NE(made("speed.csv").find("\nnone,"), std::string::npos) << made("speed.csv");
+    EXPECT_EQ(rows("speed.csv"), 1);
+    EXPECT_THAT(made("report.html"),
+                ::testing::HasSubstr("with its interval. Left out, as rewards of another unit: all, KB1.</p>"));
+}
+
+TEST_F(Report, has_no_words_on_times_where_no_level_is_timed) {
+    ::setenv("LORE_FAKE_UNIT", "cos", 1);
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    ::unsetenv("LORE_FAKE_UNIT");
+    for (char const* name : {"none", "all", "kb1"})
+        for (int run = 1; run <= 3; ++run) write_rewards(run_step(name, run), -3, "cos");
+    write_report(plan(), directory());
+    EXPECT_THAT(made("report.html"), ::testing::HasSubstr("<p class=\"note\">Area: "));
+    EXPECT_EQ(made("report.html").find("To :"), std::string::npos);
 }
 
 TEST_F(Report, replaces_no_table_where_it_is_refused) {
@@ -348,6 +378,8 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     write_report(plan(), directory());
     std::string const page = made("report.html"), figure = made("figures/figure5.svg");
     EXPECT_NE(figure.find("<g id=\"pole\"></g>"), std::string::npos);
+    EXPECT_NE(page.find("%3Cg%20id%3D%22pole%22%3E%3C%2Fg%3E"), std::string::npos) << "as an image";
+    EXPECT_EQ(page.find("<g id=\"pole\""), std::string::npos) << "where a scene could run scripts";
     EXPECT_NE(figure.find("value (cos)"), std::string::npos);
     EXPECT_NE(page.find("\"world\":{\"width\":2.0"), std::string::npos);
     EXPECT_NE(page.find("\\u003cg id=\\\"pole\\\">"), std::string::npos) << "which cannot end the script";

@@ -121,6 +121,10 @@ TEST(Lead, is_left_out_where_there_is_none) {
     CampaignPlan plan = plan_with_policy();
     EXPECT_TRUE(leads_of(plan, {{"none", 0, 1}, {"kb1", 0, 1}, {"policy", 0, 1}}).empty());
     EXPECT_TRUE(leads_of(plan, {{"kb1", 0, 1}, {"policy", 0, 2}}).empty());
+    plan.targets[0].overrides = {"evolution.generations=500"};
+    EXPECT_TRUE(leads_of(plan, {{"none", 0, 1}, {"kb1", 0, 1}, {"policy", 0, 2}}).empty());
+    plan.targets[3].overrides = plan.targets[0].overrides;
+    EXPECT_EQ(leads_of(plan, {{"none", 0, 1}, {"kb1", 0, 1}, {"policy", 0, 2}}).size(), 1u);
     plan.targets[0].config = "other.toml";
     EXPECT_TRUE(leads_of(plan, {{"none", 0, 1}, {"kb1", 0, 1}, {"policy", 0, 2}}).empty());
 }
