@@ -110,8 +110,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
         app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N")->check(seed_digits);
     app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")
         ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
     std::vector<std::string> founders;
     app.add_option("--founders", founders,

@@ -2,6 +2,7 @@
 
 #include "posix_file.h"
 
+#include <lore/core/error.h>
 #include <lore/core/input_file.h>
 
 #include <fmt/format.h>
@@ -20,6 +21,14 @@ constexpr std::string_view temporary_mark = ".lore-tmp-";
 std::string directory_of(std::string const& path) {
     std::string const directory = std::filesystem::path{path}.parent_path().string();
     return directory.empty() ? "." : directory;
+}
+
+/// The file that a symbolic link leads to, if it is one.
+std::string behind_links(std::string const& path) {
+    std::error_code failed;
+    if (!std::filesystem::is_symlink(path, failed)) return path;
+    std::filesystem::path const target = std::filesystem::weakly_canonical(path, failed);
+    return failed ? path : target.string();
 }
 
 /// Removes the temporary file unless the rename has happened.
@@ -69,7 +78,19 @@ void write_file_atomically(std::string const& path, std::span<std::byte const> c
     write_file_atomically(path, BytePieces{&content, 1});
 }
 
-void write_file_atomically(std::string const& path, BytePieces content) {
+void refuse_pipe_or_device(std::string const& path) {
+    std::error_code ignored;
+    auto const status = std::filesystem::status(path, ignored);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+        std::filesystem::is_directory(status))
+        return;
+    throw UsageError(fmt::format("cannot write {}", path),
+                     "it is a pipe or a device, and files are replaced as a whole", "Name a file.");
+}
+
+void write_file_atomically(std::string const& wanted, BytePieces content) {
+    refuse_pipe_or_device(wanted);
+    std::string const path = behind_links(wanted);
     Temporary temporary{name_beside(path)};
     write_durably(temporary.path, content, path);
     if (::rename(temporary.path.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);

@@ -154,12 +154,16 @@ FoundCheckpoint read_checkpoint(std::string const& path, std::string const& olde
         try {
             found.checkpoint = unpack_checkpoint(read_container(older, FileKind::checkpoint), older);
         } catch (Error const&) { throw newer_fails; }
-        // The whole one takes the damaged one's place, or the next checkpoint would keep the damaged one and drop it.
         std::error_code failed;
+        bool const is_damaged = std::filesystem::exists(path, failed);
+        // The whole one takes the damaged one's place, or the next checkpoint would keep the damaged one and drop it.
         std::filesystem::rename(older, path, failed);
         if (failed)
             throw Error(fmt::format("cannot go on from {}", older), failed.message(), "Make its directory writable.");
-        found.warning = fmt::format("{} Going on from the one before.", newer_fails.what());
+        found.warning =
+            fmt::format("{} Going on from the one before.",
+                        is_damaged ? std::string{newer_fails.what()}
+                                   : fmt::format("there is no {}: the run was killed as it wrote one.", path));
         return found;
     }
 }

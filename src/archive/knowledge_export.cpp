@@ -80,6 +80,10 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
     write_npy(file("values.npy"), base.values(), one);
     write_npy(file("reward_sums.npy"), base.parts().reward_sums, one);
     write_npy(file("counts.npy"), base.parts().counts, one);
+    // Evidence that this base lacks may be there of another.
+    for (char const* const part : {"gammas.npy", "showings.npy", "return_sums.npy", "news.npy", "gain_sums.npy",
+                                   "successes_that_showed.npy", "failures_that_showed.npy"})
+        std::filesystem::remove(file(part));
     Evidence const& evidence = base.evidence();
     if (evidence.has_returns()) {
         std::vector<double> const showings(evidence.showings.begin(), evidence.showings.end());

@@ -30,6 +30,12 @@ int number_in_environment(char const* name) {
     return text == nullptr ? 0 : std::atoi(text);
 }
 
+/// Whether a command line asks for help or for the version: that may be typed wherever one is, also in an allocation.
+bool only_asks(int argc, char** argv) {
+    return std::any_of(argv, argv + argc,
+                       [](std::string_view word) { return word == "--help" || word == "-h" || word == "--version"; });
+}
+
 /// A launcher of another MPI, or srun without a matching PMI, starts as many runs as there are processes, all writing
 /// to one directory.
 void refuse_accidental_copies() {
@@ -95,7 +101,7 @@ std::vector<std::string> Communicator::gather(std::string const& text) const {
 
 Session::Session(int& argc, char**& argv) {
     if (!started_by_a_launcher()) {
-        refuse_accidental_copies();
+        if (!only_asks(argc, argv)) refuse_accidental_copies();
         return;
     }
     int granted = 0;

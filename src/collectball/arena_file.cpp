@@ -190,6 +190,11 @@ Arena parse_arena(std::string_view text, std::string const& name, std::string co
     return arena;
 }
 
+bool is_builtin_arena(std::string_view name) {
+    auto const arenas = builtin_arenas();
+    return std::any_of(arenas.begin(), arenas.end(), [&](BuiltinArena const& arena) { return arena.name == name; });
+}
+
 std::string arena_text(std::string const& file) {
     std::vector<std::string_view> names;
     for (BuiltinArena const& arena : builtin_arenas()) {

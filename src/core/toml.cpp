@@ -181,6 +181,7 @@ std::optional<std::vector<std::string>> TomlTable::strings(std::string_view key)
 
 std::optional<std::vector<std::string>> TomlTable::one_or_more(std::string_view key) const {
     if (is_array(key)) return strings(key);
+    if (has(key) && !is_string(key)) fail(key, "a string in quotes, or an array of them, is expected");
     auto one = string(key);
     if (!one) return std::nullopt;
     return one->empty() ? std::vector<std::string>{} : std::vector{*std::move(one)};

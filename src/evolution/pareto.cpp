@@ -1,32 +1,24 @@
 #include <lore/evolution/pareto.h>
 
-#include <lore/core/error.h>
+#include <lore/core/names.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 
 namespace lore {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> fronts_rule_names{"dominance", "sweep"};
+constexpr auto fronts_rule_names = names_for<FrontsRule>("dominance", "sweep");
 
 }   // namespace
 
-std::string_view name(FrontsRule rule) { return fronts_rule_names[static_cast<std::size_t>(rule)]; }
+std::string_view name(FrontsRule rule) { return fronts_rule_names[rule]; }
 
-FrontsRule fronts_rule(std::string_view wanted) {
-    auto const found = std::find(fronts_rule_names.begin(), fronts_rule_names.end(), wanted);
-    if (found == fronts_rule_names.end())
-        throw UsageError("'" + std::string{wanted} + "' is not a rule for fronts", "known are dominance, sweep",
-                         "Correct the name.");
-    return static_cast<FrontsRule>(found - fronts_rule_names.begin());
-}
+FrontsRule fronts_rule(std::string_view wanted) { return fronts_rule_names.choice(wanted, "a rule for fronts"); }
 
 bool dominates(Objectives const& a, Objectives const& b) {
     assert(a.count == b.count);

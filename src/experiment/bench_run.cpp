@@ -2,7 +2,10 @@
 
 #include "work_order.h"
 
+#include <lore/core/standard_streams.h>
 #include <lore/core/stopwatch.h>
+
+#include <fmt/format.h>
 
 namespace lore {
 
@@ -36,9 +39,16 @@ BenchOutcome run_bench(Session const& session) {
         evaluations += report.born.size();
         return true;
     };
-    EvolutionState const state = evolve(config.evolution, bench_seed, farm.evaluator(), farm.distances(), {}, count);
-    double const seconds = watch.total();
-    return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
+    try {
+        EvolutionState const state =
+            evolve(config.evolution, bench_seed, farm.evaluator(), farm.distances(), {}, count);
+        double const seconds = watch.total();
+        return {state.signature.text(), static_cast<double>(evaluations) * order.config.episode.steps / seconds};
+    } catch (Error const& error) {
+        if (!farm.broken()) throw;
+        write_stderr(fmt::format("lore-evolve: {}\n", error.what()));
+        session.abort(static_cast<int>(error.exit_code()));
+    }
 }
 
 }   // namespace lore

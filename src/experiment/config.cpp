@@ -135,6 +135,10 @@ void check(ExperimentConfig const& config, std::string const& name) {
         refuse("world.process", "the world is a library already", "Name one of both.");
     if (!world.process.empty() && world.process[0].empty())
         refuse("world.process", "it names no program", "Write [\"python3\", \"mine.py\"], for example.");
+    if (!config.has_world() && !world.settings.empty())
+        refuse("world.settings", "no world is named that they could be told", "Name a 'library' or a 'process'.");
+    if (!config.has_world() && !world.folder.empty())
+        refuse("world.folder", "no world is named that it could be of", "Name a 'library' or a 'process'.");
     if (world.process.empty() && world.patience != WorldRequest{}.patience)
         refuse("world.patience", "only a process has a time limit", "Remove it, or name a 'process'.");
     if (config.knowledge.window_length > config.episode.steps)

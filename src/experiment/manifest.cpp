@@ -133,8 +133,7 @@ Manifest read_manifest(std::string const& path) {
         manifest.generation = whole_number<int>(json.at("generation"));
         manifest.generations = whole_number<int>(json.at("generations"));
         manifest.signature = json.at("signature");
-        manifest.best_reward = json.contains("best_reward") ? json.at("best_reward").get<double>()
-                                                            : whole_number<int>(json.at("best_balls"));
+        manifest.best_reward = json.at(json.contains("best_reward") ? "best_reward" : "best_balls").get<double>();
         if (json.contains("world")) {
             manifest.world = parse_world_record(json.at("world").dump());
         } else {

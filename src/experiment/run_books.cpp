@@ -31,6 +31,8 @@ void renew_digest(RunSetup const& setup) {
 RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string command_line, double nothing_shown)
     : setup_(std::move(setup)), nothing_shown_(nothing_shown) {
     Checkpoint const* const from = setup_.checkpoint ? &*setup_.checkpoint : nullptr;
+    // What a run has so far is opened first: where that fails, its manifest still says what it should be.
+    if (from) open_outputs(from);
     if (setup_.has_former_digest) renew_digest(setup_);
     // The configuration comes last: a directory holds a run as soon as it has one, and then has all that it needs.
     ExperimentConfig kept = setup_.order.config;
@@ -52,11 +54,7 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
     write_manifest_now();
     write_file_atomically(setup_.file(run_file::config), std::string_view{to_toml(kept)});
 
-    progress_.emplace(setup_.file(run_file::progress), from ? from->progress_bytes : 0, reward_unit());
-    if (setup_.archive_all) {
-        if (from) all_.emplace(setup_.file(run_file::all_individuals), from->all_individuals, from->state.population);
-        else all_.emplace(setup_.file(run_file::all_individuals), setup_.manifest.world);
-    }
+    if (!from) open_outputs(nullptr);
     if (from) {
         former_seconds_ = from->seconds;
         row_.evaluations = from->evaluations;
@@ -64,6 +62,13 @@ RunBooks::RunBooks(RunSetup setup, std::vector<std::string> hosts, std::string c
         last_checkpoint_generation_ = from->state.population.generation;
     }
     setup_.checkpoint.reset();   // its population would stay in memory for the whole run
+}
+
+void RunBooks::open_outputs(Checkpoint const* from) {
+    progress_.emplace(setup_.file(run_file::progress), from ? from->progress_bytes : 0, reward_unit());
+    if (!setup_.archive_all) return;
+    if (from) all_.emplace(setup_.file(run_file::all_individuals), from->all_individuals, from->state.population);
+    else all_.emplace(setup_.file(run_file::all_individuals), setup_.manifest.world);
 }
 
 double RunBooks::session_seconds() const { return seconds_between(began_, Clock::now()); }

@@ -36,6 +36,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;   // never jumps
+    /// As they are at a checkpoint, or empty.
+    void open_outputs(Checkpoint const* from);
     void write_manifest_now();
 
     RunSetup setup_;

@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <set>
 
 namespace lore {
 
@@ -41,9 +42,14 @@ namespace {
 /// Where the runs are that the user may have meant.
 std::string remedy_for_no_run(std::string const& path) {
     std::filesystem::path const runs = std::filesystem::path{path} / "runs";
-    if (std::filesystem::is_directory(runs))
-        return fmt::format("The runs of a campaign are in {}: give one, such as {}.", runs.string(),
-                           (runs / "source" / "001").string());
+    std::error_code ignored;
+    std::set<std::string> found;
+    for (std::filesystem::recursive_directory_iterator at{runs, ignored}, end; at != end; at.increment(ignored)) {
+        if (at->path().filename() == run_file::config) found.insert(at->path().parent_path().string());
+        if (at.depth() == 2) at.disable_recursion_pending();   // runs/KIND/SEED/config.toml
+    }
+    if (!found.empty())
+        return fmt::format("There are runs in {}: give one, such as {}.", runs.string(), *found.begin());
     return "Give the directory that 'lore-evolve --out' wrote.";
 }
 

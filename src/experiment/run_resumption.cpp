@@ -5,6 +5,7 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/input_file.h>
 #include <lore/experiment/run_directory.h>
 
 #include <fmt/format.h>
@@ -21,11 +22,6 @@ namespace {
 UsageError cannot_go_on(RunSetup const& setup, std::string_view with, std::string const& reason,
                         std::string_view remedy) {
     return {fmt::format("cannot go on with {}{}", setup.directory, with), reason, remedy};
-}
-
-std::string text_of(std::string const& path) {
-    std::vector<std::byte> const bytes = read_file(path);
-    return {reinterpret_cast<char const*>(bytes.data()), bytes.size()};
 }
 
 /// The configuration to go on with: the one named again on the command line, or the run's own, with the overrides.
@@ -128,7 +124,7 @@ void choose_archive(RunSetup& setup, RunOptions const& options) {
 
 void resume(RunSetup& setup, RunOptions const& options) {
     if (std::string const arena = setup.file(run_file::arena); fs::exists(arena))
-        setup.order.arena_text = text_of(arena);
+        setup.order.arena_text = read_text(arena, most_data);
     setup.order.config = configuration_to_go_on_with(setup, options);
     if (fs::exists(setup.file(run_file::manifest))) setup.manifest = read_manifest(setup.file(run_file::manifest));
     find_knowledge(setup, options);
@@ -142,11 +138,16 @@ void check_digest(RunSetup& setup) {
     if (setup.checkpoint && setup.checkpoint->seed != setup.seed)
         throw cannot_go_on(setup, "", fmt::format("{} has another seed than its checkpoint", run_file::manifest),
                            "Restore it.");
+    // Where the manifest is lost, the checkpoint alone knows the world.
+    if (std::string const other = setup.checkpoint ? why_other(setup.checkpoint->world, setup.manifest.world) : "";
+        !other.empty())
+        throw cannot_go_on(setup, "", other, "Give it the world that it was started with.");
     auto const founders = setup.founders_origin();
     setup.digest = digest_of(setup.order, setup.seed, founders ? founders->checksum : "");
     if (!setup.checkpoint || setup.checkpoint->config_digest == setup.digest) return;
-    setup.has_former_digest = setup.checkpoint->config_digest ==
-                              former_digest_of(text_of(setup.file(run_file::config)), setup.order, setup.seed);
+    setup.has_former_digest =
+        setup.checkpoint->config_digest ==
+        former_digest_of(read_text(setup.file(run_file::config), most_data), setup.order, setup.seed);
     if (!setup.has_former_digest)
         throw cannot_go_on(setup, "",
                            fmt::format("{} or {} was changed since its checkpoint", run_file::config,

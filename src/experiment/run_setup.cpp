@@ -4,8 +4,10 @@
 #include "run_resumption.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/collectball/arena.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
+#include <lore/core/utf8.h>
 #include <lore/experiment/run_directory.h>
 
 #include <fmt/format.h>
@@ -41,7 +43,7 @@ void start_anew(RunSetup& setup, RunOptions const& options) {
     setup.seed = options.seed.value_or(1);
     setup.archive_all = options.archive_all;
     setup.manifest.inputs.push_back(record_of_text(file_role::configuration, setup.given.text, setup.given.path));
-    if (!setup.order.config.has_world() && fs::exists(setup.order.config.arena))
+    if (!setup.order.config.has_world() && !is_builtin_arena(setup.order.config.arena))
         setup.manifest.inputs.push_back(
             record_of_text(file_role::arena, setup.order.arena_text, setup.order.config.arena));
     if (!options.knowledge_base.empty())
@@ -84,6 +86,16 @@ RunWorld settle_world(RunSetup& setup) {
     return world;
 }
 
+/// config.toml, and what other ranks are told, is UTF-8: a path that is not could not be read again.
+void refuse_unreadable_paths(ExperimentConfig const& config) {
+    std::vector<std::string> paths = config.founders_from;
+    paths.insert(paths.end(), {config.world.folder, config.world.name, config.arena});
+    for (std::string const& path : paths)
+        if (!is_printable(path))
+            throw UsageError(fmt::format("cannot take {}", path), "the path is no printable UTF-8",
+                             "Rename the folder, or work in another.");
+}
+
 /// What a start and a resumption have in common: the settings fit each other, the checkpoint and the knowledge base.
 void settle(PreparedRun& run, RunOptions const& options) {
     RunSetup& setup = run.setup;
@@ -93,6 +105,7 @@ void settle(PreparedRun& run, RunOptions const& options) {
                                               setup.order.config.evolution, setup.seed);
     if (setup.order.config.evolution.use_shaping && setup.order.knowledge_path.empty())
         throw UsageError("evolution.use_shaping is true", "no knowledge base is given", "Give one with --kb.");
+    refuse_unreadable_paths(setup.order.config);
     check_digest(setup);
     int const reached = setup.checkpoint ? setup.checkpoint->state.population.generation : -1;
     if (reached > setup.order.config.evolution.generations)

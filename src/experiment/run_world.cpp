@@ -36,8 +36,8 @@ std::string arena_text_of(ExperimentConfig const& config) { return config.has_wo
 
 std::vector<std::string> world_files(ExperimentConfig const& config) {
     if (config.has_world()) return files_of(config.world, builtin_worlds());
-    // Else the name of an arena that is built in.
-    return std::filesystem::is_regular_file(config.arena) ? std::vector{config.arena} : std::vector<std::string>{};
+    bool const is_file = !is_builtin_arena(config.arena) && std::filesystem::is_regular_file(config.arena);
+    return is_file ? std::vector{config.arena} : std::vector<std::string>{};
 }
 
 RunWorld open_run_world(ExperimentConfig const& config, std::string_view arena_text) {

@@ -5,6 +5,7 @@
 #include <lore/core/checksum.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/experiment/run.h>
+#include <lore/experiment/version.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,8 +18,15 @@ namespace {
 
 constexpr std::string_view ready = "ready";
 
+/// Two builds need not evaluate alike.
+std::string this_build() {
+    BuildInformation const build = build_information();
+    return fmt::format("Lore {}, commit {}", build.version, build.commit);
+}
+
 Bytes pack(WorkOrder const& order) {
-    auto const json = nlohmann::json::to_cbor({{"config", to_toml(order.config)},
+    auto const json = nlohmann::json::to_cbor({{"build", this_build()},
+                                               {"config", to_toml(order.config)},
                                                {"arena", order.arena_text},
                                                {"world_checksum", order.world_checksum},
                                                {"knowledge", order.knowledge_path},
@@ -30,6 +38,9 @@ Bytes pack(WorkOrder const& order) {
 WorkOrder unpack(Bytes const& bytes) {
     auto const* const first = reinterpret_cast<std::uint8_t const*>(bytes.data());
     auto const json = nlohmann::json::from_cbor(first, first + bytes.size());
+    if (std::string const build = json.value("build", "an older Lore"); build != this_build())
+        throw Error(fmt::format("it runs {}", this_build()), fmt::format("rank 0 runs {}", build),
+                    "Install one build on all nodes.");
     WorkOrder order;
     order.config = parse_config(json.at("config").get<std::string>(), "the configuration from rank 0", "");
     order.arena_text = json.at("arena");

@@ -2,6 +2,7 @@
 #include "exact_hash.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -9,13 +10,21 @@ namespace lore::exact {
 
 namespace {
 
-constexpr int fewest_slot_bits = 10;
+constexpr int most_first_slot_bits = 10;
+constexpr std::size_t most_key_bytes = std::size_t{16} << 20;
+
+/// A power of two. Half of the slots stay empty.
+std::size_t patterns_that_fit(std::size_t words) {
+    std::size_t const bytes = 2 * sizeof(std::uint64_t) * std::max<std::size_t>(1, words);
+    return std::bit_floor(std::max<std::size_t>(16, most_key_bytes / bytes));
+}
 
 }   // namespace
 
 PatternCache::PatternCache(int words, std::size_t most_patterns, std::size_t most_candidates)
-    : words_(static_cast<std::size_t>(words)), most_patterns_(most_patterns), most_candidates_(most_candidates) {
-    reset(fewest_slot_bits);
+    : words_(static_cast<std::size_t>(words)), most_patterns_(std::min(most_patterns, patterns_that_fit(words_))),
+      most_candidates_(most_candidates) {
+    reset(std::min(most_first_slot_bits, static_cast<int>(std::bit_width(patterns_that_fit(words_)))));
 }
 
 void PatternCache::reset(int slot_bits) {

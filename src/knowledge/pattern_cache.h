@@ -19,7 +19,8 @@ public:
         std::uint32_t count;
     };
 
-    /// With 16 candidates a pattern, as usual, both limits are reached together, at about 25 MB.
+    /// With 16 candidates a pattern, as usual, both limits are reached together: at about 25 MB with patterns of three
+    /// words. Of longer ones it holds fewer, so that these take no more than 16 MB themselves, or 16 of them.
     explicit PatternCache(int words, std::size_t most_patterns = 1u << 16, std::size_t most_candidates = 1u << 20);
 
     /// Null if the pattern is not known. Valid until the next add.

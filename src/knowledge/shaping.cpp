@@ -42,10 +42,12 @@ Shaper::Shaper(KnowledgeBase base, ShapingRule rule, IndexChoice index)
     : state_(std::make_shared<State>(std::move(base), rule)) {
     KnowledgeBase const& kept = state_->base;
     state_->index = make_final_index(index, kept);
+    double lowest = 0;
     for (double const value : kept.values()) {
         state_->highest = std::max(state_->highest, value);
-        if (value <= state_->nothing_shown) state_->nothing_shown = value - 1;
+        lowest = std::min(lowest, value);
     }
+    if (lowest <= no_feature_value) state_->nothing_shown = lowest - 1;
 }
 
 KnowledgeBase const& Shaper::base() const { return state_->base; }

@@ -2,7 +2,10 @@
 
 #include "support/program.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <fstream>
 
 using namespace lore::test;
 using ::testing::HasSubstr;
@@ -91,7 +94,14 @@ TEST_F(FirstBase, without_or_with_a_misspelt_command_is_told_the_commands) {
 TEST_F(FirstBase, of_what_is_no_run_is_told_where_runs_are) {
     expect_refusal("build nowhere --out never", 2, "Give the directory that 'lore-evolve --out' wrote.");
     fs::create_directories(scratch.file("campaign/runs/source/001"));
-    expect_refusal("build campaign --out never", 2, "The runs of a campaign are in campaign/runs");
+    expect_refusal("build campaign --out never", 2, "Give the directory that 'lore-evolve --out' wrote.");
+    for (char const* const run : {"s2", "s1", "source/001"}) {
+        fs::create_directories(scratch.file(fmt::format("campaign/runs/{}", run)));
+        std::ofstream{scratch.file(fmt::format("campaign/runs/{}/config.toml", run))};
+        expect_refusal("build campaign --out never", 2,
+                       fmt::format("There are runs in campaign/runs: give one, such as campaign/runs/{}.",
+                                   run == std::string_view{"s2"} ? "s2" : "s1"));
+    }
 }
 
 TEST_F(FirstBase, of_an_unfinished_run_is_told_how_to_finish_it) {

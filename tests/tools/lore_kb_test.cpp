@@ -191,6 +191,9 @@ TEST_F(LoreKb, exports_what_query_reads_back_whatever_the_index) {
         EXPECT_THAT(lines[i], HasSubstr(std::to_string(i - 1) + ",0,"));   // itself, at distance 0
     expect_done("export kb.lorekb --csv kb.csv");
     EXPECT_EQ(lines_of("kb.csv").size(), lines.size());
+    EXPECT_TRUE(std::filesystem::exists(scratch.file("exported/news.npy")));
+    expect_done("export " LORE_SOURCE_DIR "/tests/data/version-1/sample.lorekb --npy exported");
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("exported/news.npy"))) << "of another base";
 }
 
 TEST_F(LoreKb, prints_the_lineage_with_its_genomes_to_the_bit) {
@@ -361,7 +364,9 @@ TEST_F(LoreKb, refuses_evidence_that_would_give_no_number) {
 TEST_F(LoreKb, reads_a_base_of_the_first_layout_but_finds_no_evidence_in_it) {
     std::string const old = LORE_SOURCE_DIR "/tests/data/version-1/sample.lorekb";
     expect_done("revalue " + old + " --value mean --out mean.lorekb");
-    expect_refusal("revalue " + old + " --value return --out never", 2, "needs evidence that the base does not have");
+    for (char const* const rule : {"return", "contrast", "credit"})
+        expect_refusal("revalue " + old + " --out never --value " + rule, 2,
+                       "needs evidence that the base does not have (it was built without");
 }
 
 TEST_F(LoreKb, refuses_in_one_line_what_it_cannot_do) {

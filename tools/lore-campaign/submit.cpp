@@ -18,7 +18,8 @@ void submit_options(CLI::App& app, Arguments& arguments) {
                    "most tasks of a treatment at a time (default: the campaign's)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--sbatch", arguments.cluster_options,
-                   "a further #SBATCH option, such as --partition=long; repeatable");
+                   "a further #SBATCH option, such as --partition=long; repeatable")
+        ->allow_extra_args(false);
     app.add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
 }
 

@@ -46,6 +46,7 @@ void print_fit(Channels const& channels, Clones const& clones) {
 
 void clone(Program const& program, CloneOptions const& options) {
     check_writable(options.out);
+    std::string const checksum = checksum_text(checksum_of_file(options.base));
     KnowledgeBase const base = read_knowledge_base(options.base);
     CloneConfig const& config = options.config;
     Channels const& channels = base.config().channels;
@@ -53,7 +54,7 @@ void clone(Program const& program, CloneOptions const& options) {
     Clones const clones = lore::clone(base, config, [&](int done) { progress.update(done, ""); });
     Json const origin{{"made_by", made_by(program)},
                       {"base", options.base},
-                      {"base_xxh3_64", checksum_text(checksum_of_file(options.base))},
+                      {"base_xxh3_64", checksum},
                       {"seed", config.seed},
                       {"count", config.count},
                       {"windows", config.windows},

@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <lore/archive/atomic_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/core/error.h>
 #include <lore/experiment/version.h>
@@ -82,12 +83,20 @@ void check_writable(std::string const& path) {
     std::string const place = directory.empty() ? "." : directory.string();
     if (std::filesystem::is_directory(path))
         throw UsageError(fmt::format("cannot write {}", path), "it is a directory", "Name a file in it.");
+    refuse_pipe_or_device(path);
     if (!directory.empty() && !std::filesystem::is_directory(directory))
         throw UsageError(fmt::format("cannot write {}", path),
                          fmt::format("there is no directory {}", directory.string()), "Make it first.");
     if (::access(place.c_str(), W_OK) != 0)
         throw Error(fmt::format("cannot write {}", path), fmt::format("{}: {}", place, std::strerror(errno)),
                     "Choose a place where you may write.");
+}
+
+void require_length(int window_length, RunDirectory const& run, std::string const& path) {
+    if (int const steps = run.config.episode.steps; window_length > steps)
+        throw UsageError(fmt::format("{} does not fit {}", path, run.path),
+                         fmt::format("its windows have {} steps, an evaluation has {}", window_length, steps),
+                         "Take one with shorter windows.");
 }
 
 Trace trace_of(RunDirectory const& run, std::string const& individual) {

@@ -67,6 +67,8 @@ std::string made_by(Program const&);
 void say(Program const&, std::string const& line);
 /// Throws UsageError or Error if a file cannot be written at `path`: before long work is done for it.
 void check_writable(std::string const& path);
+/// Throws UsageError if windows of that length, of the knowledge base at `path`, are longer than the run's evaluations.
+void require_length(int window_length, RunDirectory const&, std::string const& path);
 /// The trace of an archived individual, by simulating it again. `individual` as RunDirectory::individual takes it.
 Trace trace_of(RunDirectory const&, std::string const& individual);
 /// Writes a derived knowledge base, which names the files it was made from.

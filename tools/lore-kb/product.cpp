@@ -21,10 +21,12 @@ struct ProductOptions {
 
 void product(Program const& program, ProductOptions const& options) {
     check_writable(options.csv);
-    Trace const trace = trace_of(open_run(options.run), options.individual.value_or("best"));
+    RunDirectory const run = open_run(options.run);
+    Trace const trace = trace_of(run, options.individual.value_or("best"));
     std::vector<Shaper> shapers;
     for (KnowledgeBase& base : read_knowledge_bases(options.bases)) {
         require_channels(base, options.bases[shapers.size()], trace.channels);
+        require_length(base.config().window_length, run, options.bases[shapers.size()]);
         shapers.emplace_back(std::move(base));
     }
     std::string csv = "window,step,product";

@@ -29,8 +29,12 @@ void query(Program const& program, QueryOptions const& options) {
     check_writable(options.csv);
     KnowledgeBase const base = read_knowledge_base(options.base);
     int const length = base.config().window_length;
-    Trace const trace = options.run.empty() ? read_windows(options.windows, base.config())
-                                            : trace_of(open_run(options.run), options.individual.value_or("best"));
+    auto const trace_of_run = [&] {
+        RunDirectory const run = open_run(options.run);
+        require_length(length, run, options.base);
+        return trace_of(run, options.individual.value_or("best"));
+    };
+    Trace const trace = options.run.empty() ? read_windows(options.windows, base.config()) : trace_of_run();
     require_channels(base, options.base, trace.channels);
     Shaper const shaper{base, ShapingRule::max, index_choice(options.index, options.checks)};
     auto reader = shaper.reader();

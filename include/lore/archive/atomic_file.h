@@ -9,9 +9,12 @@
 namespace lore {
 
 /// Writes a whole file or nothing: temporary file beside it, fsync, rename, fsync of the directory. Throws Error (full
-/// disk, no permission, directory gone); the former file survives.
+/// disk, no permission, directory gone); the former file survives. A symbolic link stays one, and the file that it
+/// leads to is written.
 void write_file_atomically(std::string const& path, std::span<std::byte const> content);
 void write_file_atomically(std::string const& path, std::string_view content);
+/// Throws UsageError if there is a pipe or a device at `path`: a file would take its place. Writing asks, too.
+void refuse_pipe_or_device(std::string const& path);
 /// Pieces one after the other, for content that would not fit into memory twice.
 using BytePieces = std::span<std::span<std::byte const> const>;
 void write_file_atomically(std::string const& path, BytePieces content);

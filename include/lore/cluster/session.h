@@ -36,7 +36,7 @@ private:
 class Session {
 public:
     /// Throws UsageError if a launcher of another MPI, or srun without a matching PMI, has started several independent
-    /// processes, each of which would run alone.
+    /// processes, each of which would run alone; not of a command line that only asks (--help, -h, --version).
     Session(int& argc, char**& argv);
     /// Finalizes MPI, which waits for all ranks: a rank that fails alone must call abort() instead of leaving by an
     /// exception.

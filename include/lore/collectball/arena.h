@@ -61,6 +61,8 @@ inline constexpr int most_basket_lights = 15;
 /// Throws UsageError: unreadable, unknown key, arena not closed, a start pose, ball, switch or light inside a wall,
 /// sensors or effectors that the controller cannot serve, a robot too fast for its size, no such task.
 Arena load_arena(std::string const& file, std::string const& task);
+/// Whether that is the name of a built-in arena, which comes before a file of that name.
+bool is_builtin_arena(std::string_view name);
 /// The text that load_arena would parse, for keeping a copy beside a run's results.
 std::string arena_text(std::string const& file);
 /// The same from text; `name` is what errors call it.

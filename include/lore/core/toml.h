@@ -57,7 +57,8 @@ public:
     /// Throws if the table holds a key that no getter has asked for.
     void reject_unknown() const;
     /// A UsageError that names this document and, if the key is there, its line.
-    [[noreturn]] void fail(std::string_view key, std::string_view reason, std::string_view remedy = "") const;
+    [[noreturn]] void fail(std::string_view key, std::string_view reason,
+                           std::string_view remedy = "Correct it.") const;
     /// The same of a value that something else has refused.
     [[noreturn]] void fail(std::string_view key, Error const&) const;
 

@@ -33,7 +33,7 @@ struct RunSession {
     std::string command_line;
     std::string started, stopped;   ///< UTC, ISO 8601; stopped is empty while it runs, or if it was killed
     int first_generation = 0;       ///< the generation it started from
-    int last_generation = 0;        ///< as of the last checkpoint or the end
+    int last_generation = 0;        ///< as of the stop or the end
     int ranks = 1;
     std::vector<std::string> hosts;
     std::string isa;
@@ -47,7 +47,7 @@ struct Manifest {
     std::string name;
     std::string task;
     std::uint64_t seed = 1;
-    std::string signature;    ///< as of the last checkpoint or the end
+    std::string signature;    ///< as of the last stop or the end; empty until then
     int generation = 0;       ///< likewise
     int generations = 0;      ///< that the run is to reach
     double best_reward = 0;   ///< of the best-of-run, likewise

@@ -134,6 +134,14 @@ TEST(FailedEvaluation, ends_all_ranks_names_the_individual_and_keeps_its_genome)
     }
 }
 
+TEST(FailedEvaluation, ends_all_ranks_of_a_bench_too) {
+    Scratch const scratch;
+    Command command{scratch, std::vector<std::string>{"LORE_TEST_FAIL=1:3"} + on_ranks(2) +
+                                 std::vector<std::string>{program("lore-evolve"), "--bench"}};
+    EXPECT_EQ(command.wait(), 1);
+    EXPECT_THAT(command.err(), HasSubstr("a failure that the test asked for"));
+}
+
 TEST(KilledRank, ends_the_whole_job_within_seconds) {
     Scratch const scratch;
     std::string const config = small_config(scratch, endless), directory = scratch.file("run");
@@ -166,13 +174,13 @@ TEST(OutOfMemory, in_the_midst_of_evolution_ends_all_ranks_with_one_line) {
     Scratch const scratch;
     std::string const config = small_config(scratch, endless);
     for (auto const& launcher : {std::vector<std::string>{}, on_ranks(2)}) {
-        // The distances among 60 000 would take 28 GB.
+        // The Hamming distances among 60 000 would take 14 GB.
         std::vector<std::string> const with_limit{"bash", "-c", "ulimit -v 900000; exec \"$@\"", "-"};
         std::string const directory = scratch.file(std::to_string(launcher.size()));
         Command command{scratch, with_limit + launcher +
                                      evolve(config, directory,
                                             {"--set", "evolution.population=20000", "--set", "evolution.founders=60000",
-                                             "--set", "episode.steps=20"})};
+                                             "--set", "episode.steps=20", "--set", "diversity.distances=hamming"})};
         EXPECT_EQ(command.wait(), 1);
         EXPECT_THAT(command.err(), HasSubstr("failed in generation 0 (out of memory)"));
         EXPECT_EQ(std::ranges::count(command.err(), '\n'), 1) << command.err();

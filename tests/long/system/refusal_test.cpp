@@ -93,7 +93,7 @@ TEST(CommandLine, mistakes_are_one_line_and_exit_code_2) {
 TEST(CommandLine, help_and_version_go_to_stdout) {
     Scratch const scratch;
     for (char const* const option : {"--help", "--version"}) {
-        Command alone{scratch, {program("lore-evolve"), option}};
+        Command alone{scratch, {"SLURM_NTASKS=4", program("lore-evolve"), option}};   // as typed in an allocation
         EXPECT_EQ(alone.wait(), 0);
         EXPECT_THAT(alone.out(),
                     HasSubstr(option == std::string{"--help"} ? "mpirun -n 2 lore-evolve" : "instruction set"));
@@ -305,6 +305,44 @@ TEST(Resume, of_a_finished_run_writes_a_lost_or_damaged_lineage_again) {
         EXPECT_EQ(again.wait(), 0) << again.err();
         EXPECT_EQ(file_text(lineage), whole);
     }
+}
+
+TEST(Resume, that_fails_leaves_the_manifest_as_it_is) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, 3), directory = scratch.file("run"),
+                      manifest = directory + "/manifest.json";
+    Command first{scratch, evolve(config, directory)};
+    ASSERT_EQ(first.wait(), 0) << first.err();
+    std::string const before = file_text(manifest);
+    for (char const* const output : {"/progress.csv", "/all.lore"}) {
+        std::string const whole = file_text(directory + output);
+        std::filesystem::resize_file(directory + output, 10);
+        Refusal const said =
+            refusal(scratch, evolve(config, directory, {"--resume", "--set", "evolution.generations=6"}));
+        EXPECT_EQ(said.code, 1) << output;
+        EXPECT_PRED1(is_one_line, said.line);
+        EXPECT_EQ(file_text(manifest), before) << output;
+        write_file_atomically(directory + output, std::string_view{whole});
+    }
+    Command again{scratch, evolve(config, directory, {"--resume"})};
+    EXPECT_EQ(again.wait(), 0) << again.err();
+    EXPECT_EQ(signature(again), signature(first));
+}
+
+TEST(Resume, in_another_world_is_refused_also_without_its_manifest) {
+    Scratch const scratch;
+    std::string const directory = scratch.file("maze"), config = scratch.file("maze.toml");
+    write_file_atomically(config, std::string_view{"[world]\nlibrary = \"maze\"\n[episode]\nsteps = 100\n"
+                                                   "[evolution]\npopulation = 8\nfounders = 8\ngenerations = 2\n"});
+    Command first{scratch, evolve(config, directory)};
+    ASSERT_EQ(first.wait(), 0) << first.err();
+    std::filesystem::remove(directory + "/manifest.json");
+    std::vector<std::string> const resume{program("lore-evolve"), "--out", directory, "--resume"};
+    Refusal const said = refusal(scratch, resume + std::vector<std::string>{"--set", "world.library=collectball"});
+    EXPECT_EQ(said.code, 2) << said.line;
+    EXPECT_PRED1(is_one_line, said.line);
+    Command again{scratch, resume};
+    EXPECT_EQ(again.wait(), 0) << again.err();
 }
 
 TEST(Resume, without_its_manifest_takes_the_seed_of_its_checkpoint) {

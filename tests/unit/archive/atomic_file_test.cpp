@@ -41,6 +41,19 @@ TEST(AtomicFile, replaces_a_former_file_and_leaves_nothing_else) {
     EXPECT_EQ(entries(scratch.path()), 1);
 }
 
+TEST(AtomicFile, takes_the_place_of_no_pipe_and_of_no_link) {
+    Scratch const scratch;
+    std::string const pipe = scratch.file("pipe"), link = scratch.file("link"), file = scratch.file("file");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(failure_of_writing(pipe, "x"), HasSubstr("it is a pipe or a device"));
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    write_file_atomically(file, "former");
+    std::filesystem::create_symlink("file", link);
+    write_file_atomically(link, "present");
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(text(file), "present");
+}
+
 TEST(AtomicFile, keeps_the_former_file_when_the_size_limit_strikes) {
     Scratch const scratch;
     write_file_atomically(scratch.file("a"), "former");

@@ -136,7 +136,9 @@ TEST(Checkpoint, keeps_the_last_two_and_falls_back_to_the_older_with_a_warning) 
 
     write_checkpoint(path, older, checkpoint_at(3));
     std::filesystem::remove(path);
-    EXPECT_EQ(read_checkpoint(path, older).checkpoint.state.population.generation, 2);
+    found = read_checkpoint(path, older);
+    EXPECT_EQ(found.checkpoint.state.population.generation, 2);
+    EXPECT_THAT(found.warning, ::testing::HasSubstr("checkpoint.lore: the run was killed as it wrote one. Going on"));
     std::filesystem::remove(path);
     EXPECT_THROW(read_checkpoint(path, older), Error);
 }

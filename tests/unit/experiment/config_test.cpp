@@ -97,11 +97,11 @@ TEST(Config, refuses_values_of_another_type_or_out_of_range) {
     EXPECT_EQ(complaint("[evolution]\npopulation = 1\n"),
               "a.toml, line 2: evolution.population (1 is outside 2 .. 100000). Take a number from 2 to 100000.");
     EXPECT_EQ(complaint("[evolution]\npopulation = \"many\"\n"),
-              "a.toml, line 2: evolution.population (a whole number is expected).");
+              "a.toml, line 2: evolution.population (a whole number is expected). Correct it.");
     EXPECT_EQ(complaint("[mutation]\nweight_probability = 1.5\n"),
               "a.toml, line 2: mutation.weight_probability (1.5 is outside 0 .. 1). Take a number from 0 to 1.");
     EXPECT_EQ(complaint("[mutation]\nweight_probability = nan\n"),
-              "a.toml, line 2: mutation.weight_probability (the value is not finite).");
+              "a.toml, line 2: mutation.weight_probability (the value is not finite). Correct it.");
     for (char const* const bad :
          {"[evolution]\nties = \"none\"\n", "[diversity]\ndistances = []\n", "[diversity]\ndistances = [\"cosine\"]\n",
           "evolution = 3\n", "[evolution]\nfounders = 100\n", "[mutation]\neta = 14\n",
@@ -271,6 +271,8 @@ TEST(Config, refuses_a_world_of_both_kinds_and_what_belongs_to_none) {
              {"[world]\nprocess = [\"a\"]\nlibrary = \"b\"\n", "world.process (the world is a library already)"},
              {"[world]\nlibrary = \"b\"\npatience = 3\n", "only a process has a time limit"},
              {"[world]\nprocess = [\"a\"]\npatience = 0\n", "world.patience"},
+             {"[world.settings]\nmaze = \"hard\"\n", "world.settings (no world is named"},
+             {"[world]\nfolder = \"here\"\n", "world.folder (no world is named"},
              {"[world]\nlibary = \"mine\"\n", "Did you mean 'world.library'?"},
              {"world = \"mine\"\n", "a table is expected"}})
         EXPECT_NE(complaint(text).find(saying), std::string::npos) << complaint(text);

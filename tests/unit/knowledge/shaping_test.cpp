@@ -47,6 +47,8 @@ TEST(Shaper, gives_minus_one_for_nothing_as_long_as_every_value_is_larger) {
     EXPECT_EQ(Shaper{base_of({{0x000, 0.5f}}, {0.0})}.nothing_shown(), -1.0);
     EXPECT_EQ((Shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {2.0, -0.5})}.nothing_shown()), -1.0);
     EXPECT_EQ((Shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, {-1.0, 2.0})}.nothing_shown()), -2.0);
+    for (auto const& values : {std::vector{-1.0, -1.5}, std::vector{-1.5, -1.0}})
+        EXPECT_EQ((Shaper{base_of({{0x000, 0.5f}, {0x01F, 0.5f}}, values)}.nothing_shown()), -2.5);
 }
 
 TEST(Shaper, adds_every_showing_by_rule_sum_and_every_feature_once_by_rule_distinct) {
