@@ -21,10 +21,6 @@ int least_rows_to_share(DistanceKind kind) {
     }
 }
 
-Error unfit(std::string const& why) {
-    return {"a message between ranks is damaged", why, "Check that all ranks run the same build."};
-}
-
 /// Each rank hands a pool on to two others, so that none sends it to all. Waits until it has gone: a long message moves
 /// only while both ends attend to it, and those behind would wait until this rank has measured.
 void hand_on(Post& post, int rank, int ranks, Bytes const& pool) {
@@ -73,7 +69,7 @@ void measure_everywhere(FarmState& state, DistanceKind kind, std::span<Descripto
         if (message.kind == MessageKind::failure)
             throw Error(fmt::format("measuring distances failed on rank {}", message.sender), text_of(message),
                         "Resume the run.");
-        if (message.sender >= shares.ranks()) throw unfit("it answers for rows that no rank was given");
+        if (message.sender >= shares.ranks()) throw damaged_message("it answers for rows that no rank was given");
         unpack_distances(message.payload, shares.first(message.sender), shares.last(message.sender), matrix);
         state.times.distances += watch.lap();
     }
@@ -107,7 +103,7 @@ void DistanceWorker::measure(Message const& message) {
     unpack_pool(message.payload, pool_);
     int const size = static_cast<int>(pool_.members.size());
     Shares const shares{pool_.known, size, ranks_};
-    if (rank_ >= shares.ranks()) throw unfit("its pool has no rows for this rank");
+    if (rank_ >= shares.ranks()) throw damaged_message("its pool has no rows for this rank");
     hand_on(post_, rank_, shares.ranks(), message.payload);
     std::vector<Descriptors const*> members;
     for (Descriptors const& member : pool_.members) members.push_back(&member);

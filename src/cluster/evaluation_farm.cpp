@@ -100,8 +100,7 @@ private:
         }
         for (auto& [ticket, evaluation] : unpack_deliveries(message.payload)) {
             if (ticket >= request.next_ticket())
-                throw Error("a message between ranks is damaged", "it answers for a genome that no rank was given",
-                            "Check that all ranks run the same build.");
+                throw damaged_message("it answers for a genome that no rank was given");
             deliver(ticket, std::move(evaluation));
             --held_[static_cast<std::size_t>(message.sender)];
         }

@@ -46,9 +46,7 @@ std::vector<RankTimes> Farm::stop() {
     MessageKind const kinds[]{MessageKind::times};
     for (int worker = 1; worker < state.ranks(); ++worker) {
         Message const message = state.post.await(kinds);
-        if (message.payload.size() != sizeof(RankTimes))
-            throw Error("a message between ranks is damaged", "it has other times than this rank's",
-                        "Check that all ranks run the same build.");
+        if (message.payload.size() != sizeof(RankTimes)) throw damaged_message("it has other times than this rank's");
         std::memcpy(&times[static_cast<std::size_t>(message.sender)], message.payload.data(), sizeof(RankTimes));
     }
     state.post.flush();

@@ -1,7 +1,6 @@
 #include "post.h"
 
 #include <lore/archive/messages.h>
-#include <lore/core/error.h>
 
 #include <fmt/format.h>
 
@@ -32,6 +31,10 @@ struct Trailer {
 static_assert(sizeof(Trailer) <= room_for_trailer);
 
 }   // namespace
+
+Error damaged_message(std::string const& why) {
+    return {"a message between ranks is damaged", why, "Check that all ranks run the same build."};
+}
 
 Post::~Post() {
     // After a failure some messages may never be received; MPI_Abort follows.
@@ -79,8 +82,7 @@ std::optional<Message> Post::receive(std::span<MessageKind const> kinds) {
             std::memcpy(&trailer, bytes.data() + bytes.size() - sizeof trailer, sizeof trailer);
         if (trailer.mark != message_mark || trailer.kind != static_cast<std::int32_t>(kind) ||
             trailer.length != bytes.size() - sizeof trailer)
-            throw Error("a message between ranks is damaged", "its trailer does not fit",
-                        "Check that all ranks run the same build.");
+            throw damaged_message("its trailer does not fit");
         bytes.resize(bytes.size() - sizeof trailer);
         return Message{kind, status.MPI_SOURCE, static_cast<int>(trailer.unit), std::move(bytes)};
     }

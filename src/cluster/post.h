@@ -3,6 +3,7 @@
 #include "handle.h"
 
 #include <lore/archive/container.h>
+#include <lore/core/error.h>
 
 #include <cstdint>
 #include <list>
@@ -36,6 +37,9 @@ struct Message {
 inline std::string text_of(Message const& message) {
     return {reinterpret_cast<char const*>(message.payload.data()), message.payload.size()};
 }
+
+/// Of a message that a rank of another build may have sent; `why` says what does not fit.
+Error damaged_message(std::string const& why);
 
 /// Sends and receives Lore's byte messages: the payload, then a small trailer (magic, kind, unit, length), in one MPI
 /// message. Without a communicator nothing ever arrives.

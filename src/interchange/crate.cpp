@@ -1,6 +1,7 @@
 #include "crate.h"
 
 #include <lore/core/error.h>
+#include <lore/core/uri.h>
 #include <lore/experiment/version.h>
 
 #include <algorithm>
@@ -179,13 +180,13 @@ std::string description_of(CampaignPlan const& plan, Inventory const& inventory,
 }   // namespace
 
 std::string entity_id(std::string_view path) {
-    std::string id;
-    for (char const c : path) {
-        auto const byte = static_cast<unsigned char>(c);
-        bool const plain = byte >= 0x80 || std::isalnum(byte) || std::string_view{"-._~/"}.find(c) != std::string::npos;
-        id += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-    }
-    return id;
+    // Letters of other scripts stay readable: an id may be an IRI.
+    static std::string const also = [] {
+        std::string bytes = "/";
+        for (int byte = 0x80; byte <= 0xff; ++byte) bytes += static_cast<char>(byte);
+        return bytes;
+    }();
+    return percent_encoded(path, also);
 }
 
 std::string left_out_id(std::string_view path) { return "#left-out/" + entity_id(path); }

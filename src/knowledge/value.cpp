@@ -28,10 +28,6 @@ double log_odds(Shares const& shares) {
                      remedy);
 }
 
-[[noreturn]] void refuse_any(ValueConfig const& config) {
-    refuse_evidence(config, "it was built without evidence", "Build it anew with 'lore-kb build'.");
-}
-
 [[noreturn]] void refuse_lineage(ValueConfig const& config) {
     refuse_evidence(config, "a lineage has no contemporaries", "Build from a run's --all, or --every N of them.");
 }
@@ -58,7 +54,6 @@ std::span<double const> return_sums(KnowledgeBase const& base, ValueConfig const
 void check_contrast(KnowledgeBase const& base, ValueConfig const& config) {
     Evidence const& evidence = base.evidence();
     std::string const& unit = base.provenance().reward_unit;
-    if (evidence.none()) refuse_any(config);
     if (!evidence.has_contrast()) refuse_lineage(config);
     if (config.success_reward && *config.success_reward != *evidence.success_reward)
         refuse_evidence(
@@ -131,6 +126,8 @@ std::vector<double> values_by(KnowledgeBase const& base, ValueConfig const& conf
     auto const fill = [&](auto const& value_of) {
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(i);
     };
+    if (config.rule != ValueRule::mean && evidence.none())
+        refuse_evidence(config, "it was built without evidence", "Build it anew with 'lore-kb build'.");
     switch (config.rule) {
     case ValueRule::mean:
         fill([&](std::size_t i) { return mean_value(base.parts().reward_sums[i], base.parts().counts[i]); });
@@ -149,7 +146,6 @@ std::vector<double> values_by(KnowledgeBase const& base, ValueConfig const& conf
         });
         break;
     case ValueRule::credit:
-        if (evidence.none()) refuse_any(config);
         if (!evidence.has_credit) refuse_everybody(config);
         fill([&](std::size_t i) { return credit_value(evidence.gain_sums[i], evidence.news[i]); });
         break;

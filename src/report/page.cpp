@@ -8,6 +8,7 @@
 #include "reward_words.h"
 
 #include <lore/campaign/choice.h>
+#include <lore/core/uri.h>
 #include <lore/experiment/version.h>
 
 #include <algorithm>
@@ -41,17 +42,6 @@ std::string commands(CampaignPlan plan, Results const& results) {
         text += '\n';
     }
     return text;
-}
-
-/// As in a URL.
-std::string percent_encoded(std::string_view content) {
-    std::string out;
-    for (char const c : content) {
-        bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        if (letter || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~') out += c;
-        else out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return out;
 }
 
 /// How a figure stands in the page.

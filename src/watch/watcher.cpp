@@ -90,12 +90,6 @@ std::optional<Champion> champion_of(CampaignPlan const& plan, std::vector<std::s
     return best;
 }
 
-void refuse_file(std::string const& directory) {
-    std::error_code ignored;   // what is not there yet can be waited for
-    if (fs::exists(directory, ignored) && !fs::is_directory(directory, ignored))
-        throw UsageError(fmt::format("{} is no directory of a campaign", directory), "it is a file", "Check --dir.");
-}
-
 }   // namespace
 
 struct CampaignWatcher::Memory {
@@ -115,7 +109,6 @@ struct CampaignWatcher::Memory {
 
     Memory(std::string of_file, std::string of_directory)
         : file(std::move(of_file)), directory(std::move(of_directory)), plan(read_campaign(file)) {
-        refuse_file(directory.path());
         file_stamp = stamp_of(plan.path);
     }
 

@@ -153,6 +153,13 @@ TEST_F(LoreCampaignTest, refuses_time_limits_that_are_none) {
                     LORE_SOURCE_DIR "/jobs/campaigns/small.toml --only-write -q --dir c --time " + good);
 }
 
+TEST_F(LoreCampaignTest, takes_no_file_for_a_campaigns_directory) {
+    write("a_file", "");
+    for (char const* const subcommand : {"status ", "watch ", "run "})
+        expect_refusal(std::string{subcommand} + LORE_SOURCE_DIR "/jobs/campaigns/small.toml --dir a_file", 2,
+                       "a_file is no directory of a campaign (it is a file)");
+}
+
 TEST_F(LoreCampaignTest, says_what_is_no_sample) {
     write("good.csv", "1\n2\n");
     write("header.csv", "balls\n1\n");

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <regex>
 #include <sstream>
 
 using namespace lore;
@@ -359,6 +360,18 @@ TEST_F(LoreKb, refuses_evidence_that_would_give_no_number) {
     write(1, 3);
     expect_done("revalue kb.lorekb --value return --gamma 0.5 --out return.lorekb");
     EXPECT_EQ(read_knowledge_base(scratch.file("return.lorekb")).value(0), 3);
+}
+
+TEST_F(LoreKb, looks_up_no_windows_that_are_longer_than_an_evaluation) {
+    expect_done("build run --out kb.lorekb -q");
+    auto const bytes = read_file(scratch.file("run/config.toml"));
+    std::string text{reinterpret_cast<char const*>(bytes.data()), bytes.size()};
+    text = std::regex_replace(text, std::regex{"\nsteps = [0-9]+"}, "\nsteps = 10");
+    text = std::regex_replace(text, std::regex{"\nwindow_length = [0-9]+"}, "\nwindow_length = 5");
+    write_file_atomically(scratch.file("run/config.toml"), std::string_view{text});
+    expect_refusal("query kb.lorekb --run run --csv never", 2, "an evaluation has 10");
+    expect_refusal("product kb.lorekb --run run --csv never", 2, "an evaluation has 10");
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("never")));
 }
 
 TEST_F(LoreKb, reads_a_base_of_the_first_layout_but_finds_no_evidence_in_it) {

@@ -56,8 +56,10 @@ std::string companions() {
     return !failed && std::filesystem::exists(here / "lore-evolve") ? here.string() : "";
 }
 
-/// A run has a manifest where a campaign has none.
-void refuse_run_directory(std::string const& directory) {
+/// A run has a manifest where a campaign has none; what is not there yet can be made or waited for.
+void refuse_other_than_campaign(std::string const& directory) {
+    if (std::filesystem::exists(directory) && !std::filesystem::is_directory(directory))
+        throw UsageError(fmt::format("{} is no directory of a campaign", directory), "it is a file", "Check --dir.");
     if (!directory.empty() && std::filesystem::exists(std::filesystem::path{directory} / run_file::manifest))
         throw UsageError(fmt::format("{} is no directory of a campaign", directory), "it holds a run of lore-evolve",
                          "Give another with --dir; 'lore-campaign run' makes it.");
@@ -77,7 +79,7 @@ int start(int argc, char** argv) {
         subcommand->add_options(*app.add_subcommand(subcommand->name, subcommand->description), arguments);
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
-    if (!app.got_subcommand(events.name)) refuse_run_directory(arguments.directory);   // events are of a run, too
+    if (!app.got_subcommand(events.name)) refuse_other_than_campaign(arguments.directory);   // events are of a run, too
     arguments.runner.launcher.campaign_program = std::filesystem::read_symlink("/proc/self/exe").string();
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     for (Subcommand const* const subcommand : subcommands)

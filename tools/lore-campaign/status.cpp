@@ -2,7 +2,6 @@
 
 #include <lore/campaign/plan.h>
 #include <lore/campaign/state.h>
-#include <lore/core/error.h>
 #include <lore/core/utf8.h>
 
 #include <fmt/ranges.h>
@@ -19,9 +18,6 @@ void status_options(CLI::App& app, Arguments& arguments) { add_campaign(app, arg
 ExitCode show_status(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
     CampaignDirectory const directory{arguments.directory};
-    if (std::filesystem::exists(arguments.directory) && !std::filesystem::is_directory(arguments.directory))
-        throw UsageError(fmt::format("{} is no directory of a campaign", arguments.directory), "it is a file",
-                         "Check --dir.");
     std::map<StepStatus, int> counts;
     for (auto const& [step, state] : states_of(campaign, directory)) {
         ++counts[state.status];

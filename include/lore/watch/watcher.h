@@ -15,7 +15,7 @@ namespace lore {
 /// One thread at a time.
 class CampaignWatcher {
 public:
-    /// Throws Error and UsageError as read_campaign does, and UsageError where `directory` is a file.
+    /// Throws Error and UsageError as read_campaign does.
     CampaignWatcher(std::string file, std::string directory);
     ~CampaignWatcher();
     CampaignWatcher(CampaignWatcher const&) = delete;

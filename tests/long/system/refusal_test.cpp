@@ -103,6 +103,38 @@ TEST(CommandLine, help_and_version_go_to_stdout) {
     }
 }
 
+TEST(CommandLine, takes_a_setting_and_then_the_configuration) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch);
+    Command command{
+        scratch,
+        {program("lore-evolve"), "--set", "evolution.generations=1", config, "--out", scratch.file("o"), "-q"}};
+    EXPECT_EQ(command.wait(), 0) << command.err();
+}
+
+TEST(Directory, whose_name_is_no_utf_8_is_no_origin_of_founders) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, 1), odd = scratch.file("lat\xe9in");
+    Command first{scratch, evolve(config, odd + "/run")};
+    ASSERT_EQ(first.wait(), 0) << first.err();
+    Refusal const said = refusal(scratch, std::vector<std::string>{"bash", "-c", "cd \"$0\" && exec \"$@\"", odd} +
+                                              evolve(config, scratch.file("o"), {"--founders", "run"}));
+    EXPECT_EQ(said.code, 2);
+    EXPECT_THAT(said.line, HasSubstr("the path is no printable UTF-8"));
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("o")));
+}
+
+TEST(Directory, with_the_name_of_a_built_in_arena_is_not_taken_for_it) {
+    Scratch const scratch;
+    std::string const config = small_config(scratch, 1);
+    std::filesystem::create_directory(scratch.file("collectball"));
+    Command command{
+        scratch,
+        {"bash", "-c", "cd \"$0\" && exec \"$@\"", scratch.path(), program("lore-evolve"), config, "--out", "o", "-q"}};
+    EXPECT_EQ(command.wait(), 0) << command.err();
+    EXPECT_EQ(file_text(scratch.file("o/manifest.json")).find("\"role\": \"arena\""), std::string::npos);
+}
+
 TEST(Directory, that_holds_a_run_is_refused_without_resume) {
     Scratch const scratch;
     std::string const config = small_config(scratch, 3), directory = scratch.file("run");

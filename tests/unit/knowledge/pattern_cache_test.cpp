@@ -36,6 +36,18 @@ void expect_kept(PatternCache const& cache, std::array<std::uint64_t, 3> const& 
 
 }   // namespace
 
+TEST(PatternCache, holds_fewer_patterns_the_longer_they_are) {
+    constexpr int words = 1 << 14;   // 128 kB a slot, two slots a pattern
+    PatternCache cache{words};
+    std::vector<std::uint64_t> pattern(words);
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        pattern[0] = i;
+        cache.add(pattern.data(), {});
+        EXPECT_LE(cache.size(), 64u);
+        EXPECT_NE(cache.find(pattern.data()), nullptr);
+    }
+}
+
 TEST(PatternCache, knows_what_was_added_and_nothing_else_while_it_grows) {
     PatternCache cache{3};
     Stream rng{31, Purpose::test};

@@ -1,7 +1,6 @@
 #include <lore/watch/watcher.h>
 
 #include "campaign/campaign_fixture.h"
-#include "support/complaint.h"
 #include "support/small_run.h"
 
 #include <gmock/gmock.h>
@@ -235,11 +234,6 @@ TEST_F(Facts, of_damaged_files_are_the_reason_not_an_end) {
     EXPECT_THAT(watcher.look().notice, HasSubstr("choice.json"));
     fs::remove(scratch.file("c/knowledge/choice.json"));
     EXPECT_EQ(watcher.look().notice, "");
-}
-
-TEST_F(Facts, are_not_waited_for_in_a_file) {
-    write("c", "");
-    EXPECT_THAT(test::complaint_of<UsageError>([&] { watcher(); }), HasSubstr("is no directory of a campaign"));
 }
 
 TEST_F(Facts, are_read_without_a_trace) {
