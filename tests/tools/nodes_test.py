@@ -3,6 +3,7 @@
 
 Returns 77 where no nodes can be made.
 """
+import contextlib
 import pathlib
 import signal
 import subprocess
@@ -45,6 +46,16 @@ def namespaces():
     return {line.split()[0] for line in listed.splitlines()}
 
 
+def processes(command):
+    """Those that run it now, by their numbers."""
+    found = []
+    for words in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):   # it has ended meanwhile
+            if words.read_bytes().split(b"\0")[:-1] == [word.encode() for word in command]:
+                found.append(int(words.parent.name))
+    return found
+
+
 class NodesOfOneMachine(unittest.TestCase):
     def talk(self, count, **link):
         """Seconds of a byte there and one back, and of `count` bytes there and one back."""
@@ -75,17 +86,27 @@ class NodesOfOneMachine(unittest.TestCase):
             self.assertEqual(apart.stdout, alone.stdout)
             self.assertIn("signature: ", apart.stdout)
 
-    def test_nothing_is_left_of_them_when_a_command_fails_or_they_are_stopped(self):
+    def test_nothing_is_left_of_them_when_a_command_fails(self):
         before = namespaces()
         failed = subprocess.run([*NODES, "--nodes", "2", "false"], capture_output=True, check=False)
         self.assertEqual(failed.returncode, 1)
         self.assertEqual(namespaces(), before)
-        with subprocess.Popen([*NODES, "--nodes", "2", "sleep", "600"], stderr=subprocess.DEVNULL) as stopped:
-            while len(namespaces() - before) < 2 and stopped.poll() is None:
-                time.sleep(0.05)
-            stopped.send_signal(signal.SIGTERM)
-            self.assertEqual(stopped.wait(60), 143)
-        self.assertEqual(namespaces(), before)
+
+    def test_nothing_is_left_of_them_when_they_are_stopped(self):
+        before = namespaces()
+        for moment, has_come in (
+                ("while they are made", lambda _: len(namespaces() - before) == 1),
+                ("once they are made", lambda _: len(namespaces() - before) == 2),
+                ("while ranks run", lambda command: len(processes(command)) == 2)):
+            with self.subTest(moment):
+                command = ["sleep", f"600.{time.time_ns()}"]   # told from every other
+                with subprocess.Popen([*NODES, "--nodes", "2", *command], stderr=subprocess.DEVNULL) as stopped:
+                    while not has_come(command) and stopped.poll() is None:
+                        time.sleep(0.002)
+                    stopped.send_signal(signal.SIGTERM)
+                    self.assertEqual(stopped.wait(60), 143)
+                self.assertEqual(namespaces(), before)
+                self.assertEqual(processes(command), [])
 
 
 if __name__ == "__main__":

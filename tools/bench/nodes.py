@@ -68,30 +68,28 @@ class Nodes:
         problem = why_not()
         if problem:
             raise Refusal(f"no nodes can be made here ({problem}). Run it as root on a machine of your own.")
-        self.scratch = tempfile.TemporaryDirectory()
-        agent = pathlib.Path(self.scratch.name, "agent")   # in the place of ssh: agent HOST COMMAND...
-        agent.write_text('#!/bin/sh\nhost=$1\nshift\nexec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"\n')
-        agent.chmod(0o700)
-        self.agent = str(agent)
         try:
-            taps = [self._make(number, name) for number, name in enumerate(self.names)]
-            self.switch = multiprocessing.get_context("fork").Process(
-                target=_carry, args=(taps, self.latency, self.bandwidth), daemon=True)
-            self.switch.start()
-            for tap in taps:
-                os.close(tap)
+            with _stops_waiting():
+                self._make_all()
         except BaseException:
             self.__exit__()
             raise
         return self
 
     def __exit__(self, *_):
-        if self.switch:
-            self.switch.kill()
-            self.switch.join()
-        for name in self.names:
-            subprocess.run(["ip", "netns", "del", name], capture_output=True, check=False)
-        self.scratch.cleanup()
+        with _stops_waiting():
+            if self.switch:
+                self.switch.kill()
+                self.switch.join()
+            while running := self._processes():   # a killed mpirun leaves its ranks behind, and those may start others
+                for process in running:
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(process, signal.SIGKILL)
+                time.sleep(0.01)
+            for name in self.names:
+                subprocess.run(["ip", "netns", "del", name], capture_output=True, check=False)
+            if self.scratch:
+                self.scratch.cleanup()
 
     def command(self, command):
         """`command` with one rank on each node, mpirun itself on the first."""
@@ -113,6 +111,20 @@ class Nodes:
                               capture_output=True, text=True, check=True)
         return tuple(map(int, show.stdout.split()))
 
+    def _make_all(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        agent = pathlib.Path(self.scratch.name, "agent")   # in the place of ssh: agent HOST COMMAND...
+        agent.write_text('#!/bin/sh\nhost=$1\nshift\nexec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"\n')
+        agent.chmod(0o700)
+        self.agent = str(agent)
+        taps = [self._make(number, name) for number, name in enumerate(self.names)]
+        switch = multiprocessing.get_context("fork").Process(
+            target=_carry, args=(taps, self.latency, self.bandwidth), daemon=True)
+        switch.start()
+        self.switch = switch
+        for tap in taps:
+            os.close(tap)
+
     def _make(self, number, name):
         """A namespace whose only link is a tap device; its other end, a file descriptor."""
         _ip(["netns", "add", name])
@@ -123,6 +135,23 @@ class Nodes:
             f"addr add {SUBNET}.{number + 1}/24 dev wire", "link set wire up",
             *(f"neigh replace {SUBNET}.{other + 1} lladdr {_hardware(other).hex(':')} dev wire" for other in others)]))
         return tap
+
+
+    def _processes(self):
+        """Those on the nodes."""
+        return [int(word) for name in self.names
+                for word in subprocess.run(["ip", "netns", "pids", name], capture_output=True, text=True,
+                                           check=False).stdout.split()]
+
+
+@contextlib.contextmanager
+def _stops_waiting():
+    """A stop that comes meanwhile is heard at the end: half-made nodes would be left."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _ip(words, lines=None):
