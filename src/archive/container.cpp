@@ -136,6 +136,9 @@ std::string_view name(FileKind kind) {
 }
 
 Bytes seal(FileKind kind, std::span<std::byte const> payload, Packing packing) {
+    if (packing != Packing::plain && payload.size() > most_raw_bytes)
+        throw Error(fmt::format("cannot write a {} of {} GiB", name(kind), payload.size() >> 30),
+                    fmt::format("a compressed one has at most {}", most_raw_bytes >> 30), "Take fewer individuals.");
     Header header = new_header(kind, payload.size());
     Bytes file(sizeof(Header));
     if (packing != Packing::plain) {

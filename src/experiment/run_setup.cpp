@@ -32,6 +32,16 @@ void refuse_remains(RunSetup const& setup) {
                              fmt::format("Put {} back, or choose another directory with --out.", run_file::config));
 }
 
+/// A knowledge base shapes the reward, whatever a configuration says; the command line must not say both.
+void refuse_idle_knowledge(RunOptions const& options) {
+    for (std::string setting : options.overrides) {
+        std::erase(setting, ' ');
+        if (setting == "evolution.use_shaping=false" && !options.knowledge_base.empty())
+            throw UsageError(fmt::format("cannot take {}", options.knowledge_base),
+                             "--set evolution.use_shaping=false leaves it without use", "Leave out one of the two.");
+    }
+}
+
 void start_anew(RunSetup& setup, RunOptions const& options) {
     if (options.config_path.empty())
         throw UsageError(fmt::format("there is no run in {} to go on with", options.directory),
@@ -145,6 +155,7 @@ PreparedRun prepare_run(RunOptions const& options) {
     PreparedRun run;
     RunSetup& setup = run.setup;
     setup.directory = options.directory;
+    refuse_idle_knowledge(options);
     if (!options.config_path.empty()) setup.given = read_config_file(options.config_path);
     bool const resumed = holds_a_run(setup);
     if (resumed && !options.resume)

@@ -164,7 +164,7 @@ struct Kernel {
     /// Whether the pattern of any of these features differs in few enough bits.
     bool (*any_within)(KeyedView const&, std::uint64_t const* words, Bucket places);
     /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how
-    /// many. `out` has room for all features of all tables and one more.
+    /// many. `out` has room for all in the pattern's buckets and one more.
     int (*within)(FixedView const&, std::uint64_t const* words, Candidate* out);
     /// Writes those that the summaries do not rule out, and returns how many. `out` has room for all and one more, and
     /// may be `in`.

@@ -114,6 +114,16 @@ double FixedTables::usual_visits() const {
     return features_ == 0 ? 0 : squares / static_cast<double>(features_);
 }
 
+std::size_t FixedTables::most_visits() const {
+    std::size_t most = 0;
+    for (auto table = buckets_.begin(); table != buckets_.end(); table += std::ptrdiff_t{1} << slot_bits_)
+        most +=
+            std::max_element(table, table + (std::ptrdiff_t{1} << slot_bits_), [](Bucket const& a, Bucket const& b) {
+                return a.count < b.count;
+            })->count;
+    return most;
+}
+
 RankedKeys::RankedKeys(std::span<Key const> keys, std::span<double const> worth) : numbers_(keys.size()) {
     std::iota(numbers_.begin(), numbers_.end(), 0);
     auto const worth_of = [&](std::int32_t feature) { return worth[static_cast<std::size_t>(feature)]; };

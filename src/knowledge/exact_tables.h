@@ -64,6 +64,8 @@ public:
     std::uint64_t const* records() const { return records_.data(); }
     /// Records in the buckets of a pattern like those of the set: the mean over its features.
     double usual_visits() const;
+    /// The same of the pattern that has most: at most so many.
+    std::size_t most_visits() const;
 
 private:
     std::vector<std::uint64_t> const* masks_;

@@ -148,6 +148,7 @@ TEST_F(LoreWorld, refuses_what_is_no_world) {
     expect_refusal("info ./missing.so", 2, "No such file");
     expect_refusal("info colectball:source", 2, "Did you mean 'collectball'?");
     expect_refusal("info --config wrong.toml", 2, "there is no maze 'soft' (those are: medium, hard)");
+    expect_refusal("check empty.toml", 2, "Say --config empty.toml");
     expect_refusal("check ./text.so", 1, "Compile it as a shared library");
     expect_refusal("check later", 1, "it is of version 2");
     expect_refusal("check unnamed", 1, "it exports no function lore_world");

@@ -17,6 +17,9 @@ void add_world(CLI::App* command, WorldOptions& options) {
 }
 
 WorldRequest request_for(WorldOptions const& options) {
+    if (options.world.ends_with(".toml"))
+        throw UsageError(fmt::format("{} is not a world", options.world), "it is the name of a configuration",
+                         fmt::format("Say --config {}.", options.world));
     WorldRequest request;
     if (!options.config.empty()) {
         request = read_config(options.config).world;

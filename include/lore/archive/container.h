@@ -41,6 +41,8 @@ enum class Packing : std::uint8_t { compressed, fast, plain };
 /// lengths in the header are checked against the file before anything is allocated. docs/manual/formats.md has the
 /// layout.
 ///
+/// What is compressed is at most 4 GiB: readers refuse more, and writing it throws Error.
+///
 /// Writing is atomic: temporary file in the same directory, fsync, rename, fsync of the directory. On any failure the
 /// former file is still there, whole.
 void write_container(std::string const& path, FileKind, std::span<std::byte const> payload,

@@ -415,6 +415,12 @@ TEST(KnowledgeBase, that_does_not_fit_is_refused_with_the_reason) {
         }
         EXPECT_FALSE(exists(scratch.file("run"))) << "what is refused leaves nothing behind";
     }
+    Refusal const idle =
+        refusal(scratch, evolve(config, scratch.file("run"),
+                                {"--kb", scratch.file("fits"), "--set", "evolution.use_shaping=false"}));
+    EXPECT_EQ(idle.code, 2);
+    EXPECT_THAT(idle.line, HasSubstr("leaves it without use"));
+    EXPECT_FALSE(exists(scratch.file("run")));
     Command shaped{scratch, on_ranks(2) + evolve(config, scratch.file("run"), {"--kb", scratch.file("fits")})};
     EXPECT_EQ(shaped.wait(), 0) << shaped.err();
     EXPECT_THAT(file_text(scratch.file("run/config.toml")), HasSubstr("use_shaping = true"));

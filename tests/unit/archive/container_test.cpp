@@ -15,6 +15,8 @@
 #include <array>
 #include <cstring>
 
+#include <sys/mman.h>
+
 using namespace lore;
 using ::testing::HasSubstr;
 
@@ -128,6 +130,18 @@ TEST(Container, allocates_nothing_for_a_few_bytes_that_claim_to_unpack_to_gigaby
     take_largest_allocation();
     EXPECT_THAT(refusal(file), HasSubstr("does not have the length that the header states"));
     EXPECT_LT(take_largest_allocation(), 1000u);
+}
+
+TEST(Container, is_not_made_of_more_than_readers_unpack) {
+    // Addresses without memory: whoever looks at the payload dies of it.
+    std::size_t const size = (std::size_t{4} << 30) + 1;
+    void* const nothing = ::mmap(nullptr, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    ASSERT_NE(nothing, MAP_FAILED);
+    std::span<std::byte const> const payload{static_cast<std::byte const*>(nothing), size};
+    for (Packing const packing : {Packing::compressed, Packing::fast})
+        EXPECT_THAT(test::complaint_of([&] { seal(FileKind::lineage, payload, packing); }),
+                    HasSubstr("a compressed one has at most 4"));
+    ::munmap(nothing, size);
 }
 
 TEST(Container, unpacks_what_compresses_best) {
