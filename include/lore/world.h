@@ -14,6 +14,7 @@
  *
  * VALUES. Sensors and effectors lie in [0, 1]; those of a binary channel are 0 or 1. Rewards, positions and outcomes
  * are finite. NaN is an error everywhere. Lore checks each value that it receives and ends the run at a wrong one.
+ * Positions and sizes are in u, which is whatever unit of length the world has.
  *
  * ARRAYS of a batch of n lives are [channel][n]: the value of channel c of life i is array[c * n + i]. They belong to
  * Lore, and a call may use them until it returns. The world writes all n values of each channel, those of lives that

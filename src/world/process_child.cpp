@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 
 #include <fcntl.h>
@@ -78,6 +79,14 @@ std::string ending(siginfo_t const& info) {
                                       : fmt::format("signal {}, {}", info.si_status, ::strsignal(info.si_status));
 }
 
+[[noreturn]] void refuse_start(std::string const& program, std::string const& folder, int reason) {
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw UsageError(fmt::format("cannot start {} in {}", program, folder), "there is no such folder",
+                         "Put it back, or correct 'folder' in [world] of the configuration.");
+    throw UsageError(fmt::format("cannot start {}{}{}", program, folder.empty() ? "" : " in ", folder),
+                     std::strerror(reason), "Install it, or correct 'process' in [world] of the configuration.");
+}
+
 }   // namespace
 
 ProcessChild::ProcessChild(std::vector<std::string> const& command, std::string const& folder) {
@@ -102,8 +111,7 @@ ProcessChild::ProcessChild(std::vector<std::string> const& command, std::string 
     while (got < 0 && errno == EINTR);
     if (got == sizeof reason) {
         kill();
-        throw UsageError(fmt::format("cannot start {}{}{}", command[0], folder.empty() ? "" : " in ", folder),
-                         std::strerror(reason), "Install it, or correct 'process' in [world] of the configuration.");
+        refuse_start(command[0], folder, reason);
     }
     input_ = std::move(input.to);
     output_ = std::move(output.from);

@@ -200,7 +200,7 @@ TEST(Process, that_cannot_be_started_is_a_configuration_error) {
     EXPECT_THAT(complaint_of<UsageError>([&] {
                     start_world({{"sh"}, scratch.file("none")}, "");
                 }),
-                HasSubstr("cannot start sh in " + scratch.file("none")));
+                HasSubstr("cannot start sh in " + scratch.file("none") + " (there is no such folder). Put it back"));
     std::ofstream{scratch.file("plain.txt")} << "no program\n";
     EXPECT_THAT(complaint_of<UsageError>([&] {
                     start_world({{"./plain.txt"}, scratch.path()}, "");
