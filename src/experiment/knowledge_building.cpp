@@ -172,11 +172,6 @@ void simulate(RunDirectory const& run, Batch& batch) {
 /// Calls its argument for each individual in the order of building.
 using Source = std::function<void(std::function<void(IndividualId, Genome const&, double reward)> const&)>;
 
-/// Half of the best; of whole rewards rounded up and at least 1.
-double usual_success(double best) {
-    return is_whole(best) && best >= 0 ? std::max(1.0, std::ceil(best / 2)) : best / 2;
-}
-
 KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig config, IndexChoice index,
                     Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence) {
     config.channels = Channels{run.world.world->facts()};
@@ -234,6 +229,10 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
 }   // namespace
 
 std::vector<double> default_gammas() { return {0.99, 0.995, 0.998}; }
+
+double usual_success(double best) {
+    return is_whole(best) && best >= 0 ? std::max(1.0, std::ceil(best / 2)) : best / 2;
+}
 
 KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individual, KnowledgeConfig const& config,
                                    IndexChoice index, Provenance provenance, BuildingObserver const& observe,

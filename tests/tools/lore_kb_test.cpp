@@ -338,6 +338,8 @@ TEST_F(LoreKb, values_features_anew_from_the_evidence_of_the_build) {
     expect_refusal("revalue all.lorekb --value contrast --success nan --out never", 2, "no finite number");
     expect_refusal("revalue kb.lorekb --value mean --success 1 --out never", 2, "only contrast counts them");
     expect_refusal("build run --value contrast --out never", 2, "a lineage has no contemporaries");
+    expect_refusal("build run --all --value contrast --success 1000 --out never", 2,
+                   "nobody got 1000 balls, the best ");
     expect_refusal("build run --value return --gamma 1 --out never", 2, "discount");
     expect_refusal("build run --gammas 0.5 1 --out never", 2, "discount");
     expect_refusal("build run --success 2 --out never", 2, "--all");

@@ -5,6 +5,7 @@
 #include <lore/core/progress.h>
 #include <lore/evolution/lineage.h>
 #include <lore/experiment/knowledge_building.h>
+#include <lore/world/reward_text.h>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,16 @@ std::vector<double> gammas_of(BuildOptions const& options, ValueConfig const& va
     return gammas;
 }
 
+/// What the end of a long build would say.
+void refuse_without_success(BuildOptions const& options, RunDirectory const& run) {
+    double const best = run.individual("best")->reward, success = options.success.value_or(usual_success(best));
+    if (best >= success) return;
+    std::string const& unit = run.world.world->facts().reward_unit;
+    throw UsageError(fmt::format("cannot value what {} showed by contrast", options.run),
+                     fmt::format("nobody got {} {}, the best {}", reward_text(success), unit, reward_text(best)),
+                     "Give a smaller --success, or another --value.");
+}
+
 void build(Program const& program, BuildOptions const& options) {
     if (options.all && options.individual)
         throw UsageError("cannot build", "--all takes everybody, --individual the lineage of one", "Leave one out.");
@@ -63,6 +74,7 @@ void build(Program const& program, BuildOptions const& options) {
     IndexChoice const index = index_choice(options.index, options.checks);
     RunDirectory const run = open_run(options.run);
     KnowledgeConfig const config = config_of(options, run);
+    if (value.rule == ValueRule::contrast) refuse_without_success(options, run);
     auto const individual = run.individual(options.individual.value_or("best"));
     auto const total = static_cast<std::int64_t>(
         options.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(options.every) + 1

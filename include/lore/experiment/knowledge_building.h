@@ -22,14 +22,16 @@ using BuildingObserver = std::function<void(std::int64_t individuals, std::int64
 /// Discounts whose returns a build gathers if nothing else is said: half of a reward is left after 69, 138 and 346
 /// steps.
 std::vector<double> default_gammas();
+/// The reward that makes a success if nothing else is said: half of the best-of-run's, of whole rewards rounded up and
+/// at least 1.
+double usual_success(double best);
 
 /// Algorithm 1 over the lineage of `individual`, itself first. Gathers evidence of credit and of returns for `gammas`.
 KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual, KnowledgeConfig const&, IndexChoice,
                                    Provenance, BuildingObserver const&, std::vector<double> gammas = default_gammas());
 /// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
 /// after it, if that is not 1. Throws Error if the run did not keep them. Gathers evidence of contrast and of returns.
-/// `success_reward`: so much makes a success; none: half of the best-of-run's, of whole rewards rounded up and at least
-/// 1.
+/// `success_reward`: so much makes a success; none: usual_success.
 KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexChoice, Provenance,
                                BuildingObserver const&, std::vector<double> gammas = default_gammas(),
                                std::optional<double> success_reward = {});
