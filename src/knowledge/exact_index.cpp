@@ -73,7 +73,7 @@ public:
                    : KeyedView{shape_, growing_->view(), growing_->keys(), growing_->numbers(), records_[0], values()};
     }
     /// Records that a search looks at, at most. Precondition: final and not ranked.
-    std::size_t most_visits() const { return most_visits_; }
+    std::size_t most_visits() const { return fixed_->most_visits(); }
     std::size_t largest_bucket() const { return ranked_ ? records_.count() : growing_->largest_bucket(); }
     /// Precondition: ranked.
     std::int32_t const* ranks() const { return ranked_->numbers(); }
@@ -102,9 +102,8 @@ private:
     std::optional<exact::GrowingTables> growing_;   ///< until the set is final
     std::optional<exact::FixedTables> fixed_;       ///< from then on, or
     std::optional<exact::RankedKeys> ranked_;
-    std::size_t most_visits_ = 0;   ///< of fixed_
-    float const* base_values_;      ///< of the base that it was made of, else null
-    FeatureWindows features_;       ///< those that were added
+    float const* base_values_;   ///< of the base that it was made of, else null
+    FeatureWindows features_;    ///< those that were added
     std::vector<double> worth_;
 };
 
@@ -147,7 +146,6 @@ void ExactIndex::hash() {
     if (shape_.hashes) fixed_.emplace(shape_.tables, masks_, records_);
     bool const tells_apart = fixed_ && fixed_->usual_visits() <= static_cast<double>(records_.count());
     if (!tells_apart) fixed_.reset();
-    most_visits_ = fixed_ ? fixed_->most_visits() : 0;
 }
 
 void ExactIndex::rank() {

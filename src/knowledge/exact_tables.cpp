@@ -106,22 +106,15 @@ FixedTables::FixedTables(int tables, std::vector<std::uint64_t> const& masks, Re
         std::copy_n(record, records.record_words(),
                     records_.data() + (bucket.start + bucket.count++) * records.record_words());
     });
+    auto const slots = std::ptrdiff_t{1} << slot_bits_;
+    for (auto table = buckets_.begin(); table != buckets_.end(); table += slots)
+        most_visits_ += std::ranges::max(std::span{table, table + slots}, {}, &Bucket::count).count;
 }
 
 double FixedTables::usual_visits() const {
     double squares = 0;
     for (Bucket const& bucket : buckets_) squares += static_cast<double>(bucket.count) * bucket.count;
     return features_ == 0 ? 0 : squares / static_cast<double>(features_);
-}
-
-std::size_t FixedTables::most_visits() const {
-    std::size_t most = 0;
-    for (auto table = buckets_.begin(); table != buckets_.end(); table += std::ptrdiff_t{1} << slot_bits_)
-        most +=
-            std::max_element(table, table + (std::ptrdiff_t{1} << slot_bits_), [](Bucket const& a, Bucket const& b) {
-                return a.count < b.count;
-            })->count;
-    return most;
 }
 
 RankedKeys::RankedKeys(std::span<Key const> keys, std::span<double const> worth) : numbers_(keys.size()) {

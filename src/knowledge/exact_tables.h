@@ -64,8 +64,8 @@ public:
     std::uint64_t const* records() const { return records_.data(); }
     /// Records in the buckets of a pattern like those of the set: the mean over its features.
     double usual_visits() const;
-    /// The same of the pattern that has most: at most so many.
-    std::size_t most_visits() const;
+    /// Records in the buckets of any pattern: at most so many.
+    std::size_t most_visits() const { return most_visits_; }
 
 private:
     std::vector<std::uint64_t> const* masks_;
@@ -73,6 +73,7 @@ private:
     std::size_t features_;
     std::vector<Bucket> buckets_;
     std::vector<std::uint64_t> records_;   ///< [place][record_size]
+    std::size_t most_visits_ = 0;          ///< the largest buckets of all tables together
 };
 
 /// The keys of a final set whose bits tell its features not apart, in falling order of worth, then of numbers.
