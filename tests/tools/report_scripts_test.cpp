@@ -8,6 +8,7 @@
 
 using namespace lore;
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -30,27 +31,29 @@ protected:
 /// Builds whose programs only say what they would have measured.
 class BuildsThatAreCompared : public ReportScripts {
 protected:
-    /// Generations take `ms`, but 1 ms more from the second run on; a step takes `ns`.
+    /// A run takes `ms` of processor time, a step `ns`; runs note the processors that they may use in NAME.processors.
     void make_build(std::string const& name, int ms, int ns, std::string const& signature = "00000000000000aa") {
         std::string const bin = scratch.file(name + "/bin");
         fs::create_directories(bin);
-        program(bin + "/lore-evolve", R"sh(#!/bin/sh
-if [ "$1" = --version ]; then
-  echo "lore-evolve 1.0.0 (commit 0123456789ab)"
-  echo "compiled by g++ 12.2.0, Release"
-  echo "instruction set v4 (16 floats a vector)"
-  exit
-fi
-while [ $# -gt 0 ]; do
-  if [ "$1" = --out ]; then out=$2; fi
-  shift
-done
-ms=)sh" + std::to_string(ms) + R"sh(
-if [ -e "$0.ran" ]; then ms=$((ms + 1)); fi
-touch "$0.ran"
-mkdir "$out"
-printf 'generation,best_balls,seconds\n0,0,0.000\n1,0,0.0%02d\n' $ms >"$out/progress.csv"
-echo signature: )sh" + signature + "\n");
+        program(bin + "/lore-evolve", R"py(#!/usr/bin/env python3
+import os, sys, time
+if "--version" in sys.argv:
+    print("lore-evolve 1.0.0 (commit 0123456789ab)")
+    print("compiled by g++ 12.2.0, Release")
+    print("instruction set v4 (16 floats a vector)")
+    sys.exit()
+with open(")py" + scratch.file(name + ".processors") +
+                                          R"py(", "a") as file:
+    print(sorted(os.sched_getaffinity(0)), file=file)
+begin = time.monotonic()
+while time.process_time() < )py" + std::to_string(ms) +
+                                          R"py( / 1000:
+    pass
+out = sys.argv[sys.argv.index("--out") + 1]
+os.mkdir(out)
+with open(out + "/progress.csv", "w") as file:
+    print(f"generation,best_balls,seconds\n0,0,0.0\n1,0,{time.monotonic() - begin}", file=file)
+print("signature:", ")py" + signature + "\")\n");
         program(bin + "/lore-bench", R"sh(#!/bin/sh
 if [ "$1" = --benchmark_list_tests ]; then
   echo episode/batch_of_200/40_connections/v4
@@ -119,21 +122,34 @@ TEST_F(ReportScripts, measure_a_part_that_is_asked_for_alone) {
 }
 #endif
 
-TEST_F(BuildsThatAreCompared, take_turns_and_get_the_median_ratio_of_their_pairs_and_its_range) {
+TEST_F(BuildsThatAreCompared, get_the_median_ratio_of_their_pairs_and_its_range) {
     make_build("old", 20, 30);
-    make_build("new", 10, 24);
+    make_build("new", 20, 24);
     test::Ran const ran = compare("old new --pairs 3 --only step,source --csv table.csv");
     ASSERT_EQ(ran.exit_code, 0) << ran.errors;
     EXPECT_THAT(ran.output, HasSubstr("A: the build in old (0123456789ab)."));
-    EXPECT_THAT(ran.output, HasSubstr("Medians of 3 pairs in turn"));
+    EXPECT_THAT(ran.output, HasSubstr("Medians of 3 pairs, below 1 B is faster"));
     EXPECT_THAT(ran.output,
                 HasSubstr("| one step, 40 connections, AVX-512 | 30 ns | 24 ns | 0.800 | 0.800 .. 0.800 |"));
-    EXPECT_THAT(ran.output, HasSubstr("| source generation, 1 rank | 21 ms | 11 ms | 0.524 | 0.500 .. 0.524 |"));
+    EXPECT_THAT(ran.output, HasSubstr("| source generation, 1 rank | "));
     EXPECT_THAT(ran.output, Not(HasSubstr("200 connections")));   // they do not have it
     EXPECT_THAT(ran.output, Not(HasSubstr("differ")));
     EXPECT_THAT(file_text(scratch.file("table.csv")),
                 StartsWith("figure,unit,a,b,ratio,least,most,pairs\n"
                            "\"one step, 40 connections, AVX-512\",ns,30,24,0.8000,0.8000,0.8000,3\n"));
+}
+
+TEST_F(BuildsThatAreCompared, run_on_one_rank_at_once_on_one_processor_and_by_its_time) {
+    make_build("old", 600, 30);
+    make_build("new", 300, 30);
+    test::Ran const ran = compare("old new --pairs 2 --only source");
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
+    // Half of the processor time, though the two hinder each other.
+    EXPECT_THAT(ran.output,
+                ContainsRegex("source generation, 1 rank [^|]*[|][^|]*ms [|][^|]*ms [|] 0[.](4[5-9]|5[0-5])"));
+    std::string const processors = file_text(scratch.file("old.processors"));
+    EXPECT_EQ(processors, file_text(scratch.file("new.processors")));
+    EXPECT_THAT(processors, Not(HasSubstr(",")));   // one each time
 }
 
 TEST_F(BuildsThatAreCompared, are_told_apart_where_their_runs_are_not_the_same_run) {
