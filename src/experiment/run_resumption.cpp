@@ -31,7 +31,8 @@ ExperimentConfig configuration_to_go_on_with(RunSetup const& setup, RunOptions c
     ExperimentConfig const recorded = read_config(own);
     ExperimentConfig wanted =
         setup.given.path.empty() ? read_config(own, options.overrides) : parse_config(setup.given, options.overrides);
-    if (recorded.evolution.use_shaping) wanted.evolution.use_shaping = true;   // --kb had set it
+    if (recorded.evolution.use_shaping && !forbids_shaping(options))
+        wanted.evolution.use_shaping = true;   // --kb had set it
     if (auto const others = differing_result_settings(recorded, wanted); !others.empty())
         throw cannot_go_on(setup, " under another configuration", fmt::format("it was started with {}", text(others)),
                            fmt::format("Compare {}, or start in another directory.", own));

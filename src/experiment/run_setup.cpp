@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace lore {
@@ -34,12 +35,9 @@ void refuse_remains(RunSetup const& setup) {
 
 /// A knowledge base shapes the reward, whatever a configuration says; the command line must not say both.
 void refuse_idle_knowledge(RunOptions const& options) {
-    for (std::string setting : options.overrides) {
-        std::erase(setting, ' ');
-        if (setting == "evolution.use_shaping=false" && !options.knowledge_base.empty())
-            throw UsageError(fmt::format("cannot take {}", options.knowledge_base),
-                             "--set evolution.use_shaping=false leaves it without use", "Leave out one of the two.");
-    }
+    if (forbids_shaping(options) && !options.knowledge_base.empty())
+        throw UsageError(fmt::format("cannot take {}", options.knowledge_base),
+                         "--set evolution.use_shaping=false leaves it without use", "Leave out one of the two.");
 }
 
 void start_anew(RunSetup& setup, RunOptions const& options) {
@@ -149,6 +147,13 @@ std::optional<FoundersOrigin> RunSetup::founders_origin() const {
         all->checksum += ", " + record.checksum;
     }
     return all;
+}
+
+bool forbids_shaping(RunOptions const& options) {
+    return std::ranges::any_of(options.overrides, [](std::string setting) {
+        std::erase(setting, ' ');
+        return setting == "evolution.use_shaping=false";
+    });
 }
 
 PreparedRun prepare_run(RunOptions const& options) {

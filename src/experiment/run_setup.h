@@ -33,6 +33,9 @@ struct RunSetup {
     std::optional<FoundersOrigin> founders_origin() const;   ///< as the manifest's inputs say
 };
 
+/// True if the command line itself says that the reward is not shaped. (Of a configuration --kb is stronger.)
+bool forbids_shaping(RunOptions const&);
+
 struct PreparedRun {
     std::optional<FileLock> lock;   ///< of the directory, against other processes
     RunSetup setup;

@@ -425,6 +425,10 @@ TEST(KnowledgeBase, that_does_not_fit_is_refused_with_the_reason) {
     EXPECT_EQ(shaped.wait(), 0) << shaped.err();
     EXPECT_THAT(file_text(scratch.file("run/config.toml")), HasSubstr("use_shaping = true"));
     EXPECT_THAT(file_text(scratch.file("run/manifest.json")), HasSubstr("knowledge base"));
+    Refusal const unshaped =
+        refusal(scratch, evolve(config, scratch.file("run"), {"--resume", "--set", "evolution.use_shaping=false"}));
+    EXPECT_EQ(unshaped.code, 2);
+    EXPECT_THAT(unshaped.line, HasSubstr("it was started with evolution.use_shaping = true"));
     std::filesystem::rename(scratch.file("fits"), scratch.file("moved"));
     Refusal const moved = refusal(scratch, evolve(config, scratch.file("run"), {"--resume"}));
     EXPECT_EQ(moved.code, 2);
