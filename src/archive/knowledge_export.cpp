@@ -82,7 +82,7 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
     write_npy(file("counts.npy"), base.parts().counts, one);
     // Evidence that this base lacks may be there of another.
     for (char const* const part : {"gammas.npy", "showings.npy", "return_sums.npy", "news.npy", "gain_sums.npy",
-                                   "successes_that_showed.npy", "failures_that_showed.npy"})
+                                   "contrast_totals.npy", "successes_that_showed.npy", "failures_that_showed.npy"})
         std::filesystem::remove(file(part));
     Evidence const& evidence = base.evidence();
     if (evidence.has_returns()) {
@@ -96,6 +96,8 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
         write_npy(file("gain_sums.npy"), evidence.gain_sums, one);
     }
     if (evidence.has_contrast()) {
+        std::array const totals{static_cast<double>(evidence.successes), static_cast<double>(evidence.failures)};
+        write_npy(file("contrast_totals.npy"), std::span<double const>{totals}, std::array{totals.size()});
         write_npy(file("successes_that_showed.npy"), evidence.successes_that_showed, one);
         write_npy(file("failures_that_showed.npy"), evidence.failures_that_showed, one);
     }

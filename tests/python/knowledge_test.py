@@ -71,6 +71,7 @@ class Knowledge(LoreTest):
             {"success_balls": contrast.success_reward, "successes": contrast.successes, "failures": contrast.failures},
             told,
         )
+        np.testing.assert_array_equal([contrast.successes, contrast.failures], arrays["contrast_totals"])
         np.testing.assert_array_equal(contrast.successes_that_showed, arrays["successes_that_showed"])
         np.testing.assert_array_equal(contrast.failures_that_showed, arrays["failures_that_showed"])
 

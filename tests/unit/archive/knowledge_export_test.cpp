@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <filesystem>
 
 using namespace lore;
 using ::testing::ElementsAre;
@@ -46,14 +47,24 @@ TEST(KnowledgeCsv, ends_with_the_evidence_that_there_is) {
     arrays.evidence.has_credit = true;
     arrays.evidence.news = {1};
     arrays.evidence.gain_sums = {-2};
+    arrays.evidence.success_reward = 2;
+    arrays.evidence.successes = 5;
+    arrays.evidence.failures = 9;
+    arrays.evidence.successes_that_showed = {4};
+    arrays.evidence.failures_that_showed = {3};
     KnowledgeBase const base{{1, 1.83f, collectball_channels()}, {}, std::move(arrays)};
-    EXPECT_THAT(knowledge_csv(base), HasSubstr(",collect_0,showings,return_sum_0.5,return_sum_0.995,news,gain_sum\n"));
-    EXPECT_THAT(knowledge_csv(base), HasSubstr(",0,3,1.5,2.25,1,-2\n"));
+    EXPECT_THAT(knowledge_csv(base), HasSubstr(",collect_0,showings,return_sum_0.5,return_sum_0.995,news,gain_sum,"
+                                               "successes_that_showed,failures_that_showed\n"));
+    EXPECT_THAT(knowledge_csv(base), HasSubstr(",0,3,1.5,2.25,1,-2,4,3\n"));
     Scratch const scratch;
     export_knowledge(scratch.file("kb"), base);
     EXPECT_THAT(read_npy(scratch.file("kb/return_sums.npy")).shape, ElementsAre(2, 1));
     EXPECT_THAT(read_npy(scratch.file("kb/showings.npy")).values, ElementsAre(3.0f));
     EXPECT_THAT(read_npy(scratch.file("kb/gain_sums.npy")).values, ElementsAre(-2.0f));
+    EXPECT_THAT(read_npy(scratch.file("kb/contrast_totals.npy")).values, ElementsAre(5.0f, 9.0f));
+    EXPECT_THAT(read_npy(scratch.file("kb/failures_that_showed.npy")).values, ElementsAre(3.0f));
+    export_knowledge(scratch.file("kb"), two);   // into the same directory
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("kb/contrast_totals.npy")));
 }
 
 TEST(ExportKnowledge, writes_arrays_that_read_back_as_the_windows) {
