@@ -11,6 +11,7 @@ namespace {
 /// Cells are about this wide: 3 % of them are mixed in the paper's arena. Larger arenas get larger cells.
 constexpr double cell_edge = 2.0;   // [u]
 constexpr double most_cells = 1 << 16;
+constexpr int block_cells = 8;   ///< a block is so many cells wide and high
 /// Everything is decided with cells and walls wrong by this much: far more than the rounding of positions and of the
 /// exact test in float32 (1e-3 u) in arenas of thousands of u.
 constexpr double margin = 0.05;   // [u]
@@ -77,12 +78,31 @@ struct View {
     WallSet suspects = 0;   ///< if not hidden
 };
 
-View view(std::vector<Obstacle> const& obstacles, bool door_open, Box const& cell, Corner const& light) {
+/// Walls, by what they do to a box: an obstacle that is out of play for a block of cells is so for each of them.
+using Obstacles = std::vector<Obstacle const*>;
+
+View view(Obstacles const& obstacles, bool door_open, Box const& cell, Corner const& light) {
     View seen;
-    for (Obstacle const& o : obstacles) {
-        if ((o.door && door_open) || clear_of(o.grown_wall, cell, light)) continue;
-        if (hidden_by(o.shrunk_wall, cell, light)) return {true, 0};
-        seen.suspects |= o.bit;
+    for (Obstacle const* const o : obstacles) {
+        if ((o->door && door_open) || clear_of(o->grown_wall, cell, light)) continue;
+        if (hidden_by(o->shrunk_wall, cell, light)) return {true, 0};
+        seen.suspects |= o->bit;
+    }
+    return seen;
+}
+
+/// Those that are in play between the light and the points of a block of cells; none, and true, if the block is hidden.
+struct BlockView {
+    bool hidden = false;
+    Obstacles obstacles;
+};
+
+BlockView view_of_block(std::vector<Obstacle> const& walls, Box const& block, Corner const& light) {
+    BlockView seen;
+    for (Obstacle const& o : walls) {
+        if (clear_of(o.grown_wall, block, light)) continue;
+        if (!o.door && hidden_by(o.shrunk_wall, block, light)) return {true, {}};
+        seen.obstacles.push_back(&o);
     }
     return seen;
 }
@@ -112,23 +132,42 @@ Surroundings survey(float width, float height, std::span<Rect const> walls, int 
         Rect const& wall = walls[static_cast<std::size_t>(i)];
         obstacles.push_back({grown(wall, margin), grown(wall, -margin), wall_bit(i), i >= first_door});
     }
-    for (std::size_t at = 0; at < table.cells.size(); ++at) {
-        bool const door_open = at >= count || !has_door;
-        int const row = static_cast<int>(at % count) / table.columns,
-                  column = static_cast<int>(at % count) % table.columns;
-        Box const box{column * edge - margin, (column + 1) * edge + margin, row * edge - margin,
-                      (row + 1) * edge + margin};
-        Surroundings::Cell& cell = table.cells[at];
+    auto const box_of = [&](int column, int row, int cells) {
+        return Box{column * edge - margin, (column + cells) * edge + margin, row * edge - margin,
+                   (row + cells) * edge + margin};
+    };
+    auto const fill = [&](Surroundings::Cell& cell, bool door_open, Box const& box, std::vector<BlockView> const& views,
+                          Obstacles const& touchable) {
         if (lights.size() > 16) cell.suspects = 0xffff;   // what hides a light without a bit of its own is not known
         for (std::size_t i = 0; i < lights.size(); ++i) {
-            View const seen = view(obstacles, door_open, box, {lights[i].x, lights[i].y});
+            if (views[i].hidden) continue;
+            View const seen = view(views[i].obstacles, door_open, box, {lights[i].x, lights[i].y});
             if (seen.hidden) continue;
             if (i < 16) (seen.suspects == 0 ? cell.clear : cell.mixed) |= static_cast<std::uint16_t>(1u << i);
             cell.suspects |= seen.suspects;
         }
-        for (Obstacle const& o : obstacles)
-            if (!(o.door && door_open) && distance(o.grown_wall, box) <= touch_distance) cell.touchable |= o.bit;
-    }
+        for (Obstacle const* const o : touchable)
+            if (!(o->door && door_open) && distance(o->grown_wall, box) <= touch_distance) cell.touchable |= o->bit;
+    };
+    // Most of what a cell asks, a block of cells can answer: that makes the table in a tenth of the time.
+    std::vector<BlockView> views(lights.size());
+    Obstacles touchable;
+    for (int top = 0; top < table.rows; top += block_cells)
+        for (int left = 0; left < table.columns; left += block_cells) {
+            Box const block = box_of(left, top, block_cells);
+            for (std::size_t i = 0; i < lights.size(); ++i)
+                views[i] = view_of_block(obstacles, block, {lights[i].x, lights[i].y});
+            touchable.clear();
+            for (Obstacle const& o : obstacles)
+                if (distance(o.grown_wall, block) <= touch_distance) touchable.push_back(&o);
+            for (int row = top; row < std::min(top + block_cells, table.rows); ++row)
+                for (int column = left; column < std::min(left + block_cells, table.columns); ++column) {
+                    std::size_t const at = static_cast<std::size_t>(row * table.columns + column);
+                    Box const box = box_of(column, row, 1);
+                    fill(table.cells[at], !has_door, box, views, touchable);
+                    if (has_door) fill(table.cells[at + count], true, box, views, touchable);
+                }
+        }
     return table;
 }
 
