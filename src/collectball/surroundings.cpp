@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace lore {
 
@@ -78,7 +79,6 @@ struct View {
     WallSet suspects = 0;   ///< if not hidden
 };
 
-/// Walls, by what they do to a box: an obstacle that is out of play for a block of cells is so for each of them.
 using Obstacles = std::vector<Obstacle const*>;
 
 View view(Obstacles const& obstacles, bool door_open, Box const& cell, Corner const& light) {
@@ -91,27 +91,56 @@ View view(Obstacles const& obstacles, bool door_open, Box const& cell, Corner co
     return seen;
 }
 
-/// Those that are in play between the light and the points of a block of cells; none, and true, if the block is hidden.
-struct BlockView {
-    bool hidden = false;
-    Obstacles obstacles;
-};
-
-BlockView view_of_block(std::vector<Obstacle> const& walls, Box const& block, Corner const& light) {
-    BlockView seen;
-    for (Obstacle const& o : walls) {
-        if (clear_of(o.grown_wall, block, light)) continue;
-        if (!o.door && hidden_by(o.shrunk_wall, block, light)) return {true, {}};
-        seen.obstacles.push_back(&o);
-    }
-    return seen;
-}
-
 /// Distance between two boxes.
 double distance(Box const& a, Box const& b) {
     double const gap_x = std::max({a.x0 - b.x1, b.x0 - a.x1, 0.0}), gap_y = std::max({a.y0 - b.y1, b.y0 - a.y1, 0.0});
     return std::hypot(gap_x, gap_y);
 }
+
+/// What a block of cells can answer for all of them. A wall that is clear of the block, or hides it, or is out of its
+/// touch, is so for each cell; so the cells ask few walls, and the table is made in an eighth of the time.
+class Block {
+public:
+    Block(std::vector<Obstacle> const& walls, Box const& box, std::span<Point const> lights, double touch_distance)
+        : lights_(lights), touch_distance_(touch_distance) {
+        for (Point const& light : lights) asked_.push_back(obstacles(walls, box, {light.x, light.y}));
+        for (Obstacle const& o : walls)
+            if (distance(o.grown_wall, box) <= touch_distance) touchable_.push_back(&o);
+    }
+
+    /// The cell of the block that `box` is.
+    Surroundings::Cell cell(Box const& box, bool door_open) const {
+        Surroundings::Cell cell;
+        if (lights_.size() > 16) cell.suspects = 0xffff;   // what hides a light without a bit of its own is not known
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+            if (!asked_[i]) continue;
+            View const seen = view(*asked_[i], door_open, box, {lights_[i].x, lights_[i].y});
+            if (seen.hidden) continue;
+            if (i < 16) (seen.suspects == 0 ? cell.clear : cell.mixed) |= static_cast<std::uint16_t>(1u << i);
+            cell.suspects |= seen.suspects;
+        }
+        for (Obstacle const* const o : touchable_)
+            if (!(o->door && door_open) && distance(o->grown_wall, box) <= touch_distance_) cell.touchable |= o->bit;
+        return cell;
+    }
+
+private:
+    /// Those that may come between the block and the light; null if a wall hides all of the block.
+    static std::optional<Obstacles> obstacles(std::vector<Obstacle> const& walls, Box const& box, Corner const& light) {
+        Obstacles between;
+        for (Obstacle const& o : walls) {
+            if (clear_of(o.grown_wall, box, light)) continue;
+            if (!o.door && hidden_by(o.shrunk_wall, box, light)) return std::nullopt;
+            between.push_back(&o);
+        }
+        return between;
+    }
+
+    std::span<Point const> lights_;
+    double touch_distance_;
+    std::vector<std::optional<Obstacles>> asked_;   ///< [light]
+    Obstacles touchable_;
+};
 
 }   // namespace
 
@@ -136,36 +165,15 @@ Surroundings survey(float width, float height, std::span<Rect const> walls, int 
         return Box{column * edge - margin, (column + cells) * edge + margin, row * edge - margin,
                    (row + cells) * edge + margin};
     };
-    auto const fill = [&](Surroundings::Cell& cell, bool door_open, Box const& box, std::vector<BlockView> const& views,
-                          Obstacles const& touchable) {
-        if (lights.size() > 16) cell.suspects = 0xffff;   // what hides a light without a bit of its own is not known
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            if (views[i].hidden) continue;
-            View const seen = view(views[i].obstacles, door_open, box, {lights[i].x, lights[i].y});
-            if (seen.hidden) continue;
-            if (i < 16) (seen.suspects == 0 ? cell.clear : cell.mixed) |= static_cast<std::uint16_t>(1u << i);
-            cell.suspects |= seen.suspects;
-        }
-        for (Obstacle const* const o : touchable)
-            if (!(o->door && door_open) && distance(o->grown_wall, box) <= touch_distance) cell.touchable |= o->bit;
-    };
-    // Most of what a cell asks, a block of cells can answer: that makes the table in a tenth of the time.
-    std::vector<BlockView> views(lights.size());
-    Obstacles touchable;
     for (int top = 0; top < table.rows; top += block_cells)
         for (int left = 0; left < table.columns; left += block_cells) {
-            Box const block = box_of(left, top, block_cells);
-            for (std::size_t i = 0; i < lights.size(); ++i)
-                views[i] = view_of_block(obstacles, block, {lights[i].x, lights[i].y});
-            touchable.clear();
-            for (Obstacle const& o : obstacles)
-                if (distance(o.grown_wall, block) <= touch_distance) touchable.push_back(&o);
+            Block const block{obstacles, box_of(left, top, block_cells), lights, touch_distance};
             for (int row = top; row < std::min(top + block_cells, table.rows); ++row)
                 for (int column = left; column < std::min(left + block_cells, table.columns); ++column) {
                     std::size_t const at = static_cast<std::size_t>(row * table.columns + column);
                     Box const box = box_of(column, row, 1);
-                    fill(table.cells[at], !has_door, box, views, touchable);
-                    if (has_door) fill(table.cells[at + count], true, box, views, touchable);
+                    table.cells[at] = block.cell(box, !has_door);
+                    if (has_door) table.cells[at + count] = block.cell(box, true);
                 }
         }
     return table;
