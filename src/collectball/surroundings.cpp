@@ -12,7 +12,6 @@ namespace {
 /// Cells are about this wide: 3 % of them are mixed in the paper's arena. Larger arenas get larger cells.
 constexpr double cell_edge = 2.0;   // [u]
 constexpr double most_cells = 1 << 16;
-constexpr int block_cells = 8;   ///< a block is so many cells wide and high
 /// Everything is decided with cells and walls wrong by this much: far more than the rounding of positions and of the
 /// exact test in float32 (1e-3 u) in arenas of thousands of u.
 constexpr double margin = 0.05;   // [u]
@@ -145,7 +144,7 @@ private:
 }   // namespace
 
 Surroundings survey(float width, float height, std::span<Rect const> walls, int first_door,
-                    std::span<Point const> lights, float touch_distance) {
+                    std::span<Point const> lights, float touch_distance, int block_cells) {
     Surroundings table;
     double const edge = std::max(cell_edge, std::sqrt(static_cast<double>(width) * height / most_cells));
     table.cells_per_u = static_cast<float>(1.0 / edge);

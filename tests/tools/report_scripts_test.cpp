@@ -125,13 +125,14 @@ TEST_F(ReportScripts, measure_a_part_that_is_asked_for_alone) {
 TEST_F(BuildsThatAreCompared, get_the_median_ratio_of_their_pairs_and_its_range) {
     make_build("old", 20, 30);
     make_build("new", 20, 24);
-    test::Ran const ran = compare("old new --pairs 3 --only step,source --csv table.csv");
+    test::Ran const ran = compare("old new --pairs 3 --only step,source,start --csv table.csv");
     ASSERT_EQ(ran.exit_code, 0) << ran.errors;
     EXPECT_THAT(ran.output, HasSubstr("A: the build in old (0123456789ab)."));
     EXPECT_THAT(ran.output, HasSubstr("Medians of 3 pairs, below 1 B is faster"));
     EXPECT_THAT(ran.output,
                 HasSubstr("| one step, 40 connections, AVX-512 | 30 ns | 24 ns | 0.800 | 0.800 .. 0.800 |"));
     EXPECT_THAT(ran.output, HasSubstr("| source generation, 1 rank | "));
+    EXPECT_THAT(ran.output, HasSubstr("| a run of one generation, start and end included, target | "));
     EXPECT_THAT(ran.output, Not(HasSubstr("200 connections")));   // they do not have it
     EXPECT_THAT(ran.output, Not(HasSubstr("differ")));
     EXPECT_THAT(file_text(scratch.file("table.csv")),

@@ -137,6 +137,31 @@ TEST(Surroundings, name_every_wall_that_a_step_may_touch) {
     }
 }
 
+TEST(Surroundings, are_the_same_whether_cells_are_asked_in_blocks_or_each_for_itself) {
+    auto const expect_same = [](float size, std::vector<Rect> const& walls, int first_door,
+                                std::vector<Point> const& lights) {
+        auto const cells = [&](int block) { return survey(size, size, walls, first_door, lights, 24, block).cells; };
+        auto const alone = cells(1);
+        EXPECT_EQ(cells(8), alone);
+        EXPECT_EQ(cells(3), alone);
+    };
+    Arena const source = load_arena("collectball", "source");
+    Geometry const& g = *source.geometry;
+    expect_same(600, g.walls, g.first_door, g.lights);
+    Stream rng{7, Purpose::test};
+    auto const place = [&] { return static_cast<float>(rng.uniform(0, 120)); };
+    for (int arena = 0; arena < 20; ++arena) {
+        std::vector<Rect> walls;
+        for (int wall = 0; wall < 5; ++wall) {
+            float const x = place(), y = place();
+            walls.push_back({x, x + 1 + place() / 3, y, y + 1 + place() / 3});
+        }
+        std::vector<Point> lights;
+        for (int light = 0; light < 1 + arena; ++light) lights.push_back({place(), place()});   // up to 20
+        expect_same(120, walls, arena % 2 == 0 ? 4 : 5, lights);                                // with a door, without
+    }
+}
+
 TEST(VisitWalls, reaches_every_wall_of_the_set_in_order) {
     auto visited = [](WallSet set, int count) {
         std::vector<int> walls;
