@@ -113,10 +113,8 @@ public:
             if (steps == 0) continue;
             Trace& trace = traces_[episodes_[lane]];
             firsts_[lane] = static_cast<int>(trace.channel_bits.size() / words_);
-            for (std::size_t i = 0; i < steps * words_; ++i)
-                trace.channel_bits.push_back(chunk.words[i * width + lane]);
-            for (std::size_t i = 0; i < steps * continuous_; ++i)
-                trace.values.push_back(chunk.values[i * width + lane]);
+            append(trace.channel_bits, chunk.words + lane, steps * words_, width);
+            append(trace.values, chunk.values + lane, steps * continuous_, width);
         }
         for (LaneReward const& reward : chunk.rewards) {
             auto const lane = static_cast<std::size_t>(reward.lane);
@@ -138,6 +136,14 @@ public:
     }
 
 private:
+    /// Every stride-th item.
+    template <class T>
+    static void append(std::vector<T>& to, T const* items, std::size_t count, std::size_t stride) {
+        to.resize(to.size() + count);
+        T* const out = to.data() + to.size() - count;
+        for (std::size_t i = 0; i < count; ++i) out[i] = items[i * stride];
+    }
+
     std::size_t words_, continuous_;
     std::span<Network const> networks_;
     std::vector<int> order_;
@@ -173,7 +179,8 @@ void simulate(RunDirectory const& run, Batch& batch) {
 using Source = std::function<void(std::function<void(IndividualId, Genome const&, double reward)> const&)>;
 
 KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConfig config, IndexChoice index,
-                    Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence) {
+                    Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence,
+                    std::string const& folder = {}) {
     config.channels = Channels{run.world.world->facts()};
     BatchQueue queue;
     std::thread simulator{[&] {
@@ -204,18 +211,14 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
         }
     } const join{queue, simulator};
 
-    KnowledgeBuilder builder{config, make_index(index, config), std::move(evidence)};
+    KnowledgeBuilder builder{config, make_index(index, config, folder), std::move(evidence)};
     int const threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
             exhibits.push_back({windows_of(batch.traces[i], config.window_length), batch.rewards[i],
                                 batch.traces[i].rewards, batch.ids[i].generation});
-        if (index.kind == IndexKind::exact) {
-            builder.add_individuals(exhibits, threads);
-        } else {   // what an approximate index misses depends on what it holds, so there the order of searches matters
-            for (Exhibit const& exhibit : exhibits) builder.add_individual(exhibit);
-        }
+        builder.add_individuals(exhibits, threads);
         observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
     provenance.index = text(index);
@@ -248,7 +251,7 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const& run, Birth const& individ
 
 KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConfig const& config, IndexChoice index,
                                Provenance provenance, BuildingObserver const& observe, std::vector<double> gammas,
-                               std::optional<double> success_reward) {
+                               std::optional<double> success_reward, std::string const& folder) {
     assert(every >= 1);
     archived_individuals(run);
     provenance.kind = "all";
@@ -263,7 +266,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
     };
     if (!success_reward) success_reward = usual_success(provenance.best_reward);
     EvidenceConfig evidence{std::move(gammas), false, success_reward};
-    return build(run, all_individuals, config, index, std::move(provenance), observe, std::move(evidence));
+    return build(run, all_individuals, config, index, std::move(provenance), observe, std::move(evidence), folder);
 }
 
 std::uint64_t archived_individuals(RunDirectory const& run) {

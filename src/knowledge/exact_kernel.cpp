@@ -1,4 +1,5 @@
 #include "exact_kernel.h"
+#include "exact_codes.h"
 #include "exact_hash.h"
 #include "exact_keys.h"
 #include "exact_window.h"
@@ -19,10 +20,12 @@ void summarize(Shape const& shape, float const* values, Digest& digest) {
     put_summary(shape, sums, digest);
 }
 
-Key summarize_with_key(Shape const& shape, std::uint64_t const* words, float const* values, Digest& digest) {
+Key describe(Shape const& shape, std::uint16_t const* bits, float const* values, std::uint64_t* words,
+             std::uint8_t* codes) {
+    pack_window(shape, bits, words);
+    encode(shape, values, codes);
     Sums sums;
     add_up(shape, values, sums);
-    put_summary(shape, sums, digest);
     return key_of(shape, words, sums);
 }
 
@@ -78,52 +81,91 @@ LORE_INLINE void take_if_nearer(Nearest& best, std::int32_t feature, float dista
 
 /// Keys of one bucket that are looked through before what was found among them is compared, where one bucket holds all.
 constexpr std::uint32_t keys_at_once = 2048;
+/// Groups of keys that are fetched before they are looked at: more would drive each other out of the nearest cache.
+constexpr int fetched_at_most = 32;
 
-/// One question to a set by its keys. As the search goes on, the best so far leaves less and less room for a better
-/// one.
+/// What the root of a sum of codes' squares may be off by, of itself, and what follows from it.
+constexpr float relative_code_error = 0x1p-19f;
+
+/// One question to a set by its keys. As the search goes on, what was found leaves less and less room for a better one.
+/// It is done in steps: each ends by fetching what the next one reads.
 struct KeyedSearch {
-    KeyedView const& view;
-    Query const& query;
-    Digest const& summary;
-    Key const& key;
-    Scratch scratch;
-    Nearest best;
+    KeyedView const* view = nullptr;
+    bool by_tables = false;   ///< else all places are looked through, by shares
+    Question question{};
+    Scratch scratch{};
+    std::int32_t features = 0;    ///< that are wanted: those with smaller numbers
+    float bound = 0;              ///< no match is beyond
+    std::int32_t nearest = -1;    ///< the finalist that the bound comes from
+    std::int32_t compared = -1;   ///< the feature that was compared before any bucket
+    int finalists = 0;
+    std::uint64_t recent_slot = 0;
+    // Where it stands
+    Bucket bucket{};             ///< the one that is looked through
+    int visits = 0;              ///< buckets seen before it
+    int unseen = 0;              ///< bits, at least, in which a feature differs that is in none of these
+    int blocks[2] = {0, 0};      ///< seen, of the even and of the odd ones
+    int of_halves[2] = {0, 0};   ///< 1: the half was seen
+    Bucket rest{};               ///< places that are left, if not by tables
+    int groups = 0;              ///< of its keys, in scratch, if it has_groups
+    int candidates = 0;          ///< in scratch
 
-    LORE_INLINE Shape const& shape() const { return view.shape; }
-    LORE_INLINE int value_count() const { return shape().window_length * shape().continuous; }
-    LORE_INLINE std::uint64_t const* record_of(std::int32_t feature) const {
-        return view.records + static_cast<std::size_t>(feature) * static_cast<std::size_t>(record_size(shape().words));
+    LORE_INLINE Shape const& shape() const { return view->shape; }
+    LORE_INLINE std::uint64_t const* words() const { return question.words; }
+    LORE_INLINE std::uint64_t const* pattern_of(std::int32_t feature) const {
+        return view->patterns + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape().words);
     }
-    LORE_INLINE float const* values_of(std::int32_t feature) const {
-        return view.values + static_cast<std::size_t>(feature) * static_cast<std::size_t>(value_count());
+    LORE_INLINE std::uint8_t const* codes_of(std::int32_t feature) const {
+        return view->codes + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape().code_size);
     }
-    LORE_INLINE int differing_bits(std::uint64_t const* record) const {
+    LORE_INLINE int differing_bits(std::uint64_t const* pattern) const {
         int differing = 0;
         for (int word = 0; word < shape().words; ++word)
-            differing += __builtin_popcountll(query.words[word] ^ record[word]);
+            differing += __builtin_popcountll(words()[word] ^ pattern[word]);
         return differing;
     }
     /// Bits in which a better one may differ. In float first: a threshold may be beyond any int.
     LORE_INLINE int most_bits() const {
-        return best.squared_distance < static_cast<float>(shape().most_differing)
-                   ? static_cast<int>(best.squared_distance)
-                   : shape().most_differing;
+        return bound < static_cast<float>(shape().most_differing) ? static_cast<int>(bound) : shape().most_differing;
     }
     /// What the continuous channels of a better one that differs in so many bits may add to its squared distance.
     LORE_INLINE float left(int differing) const {
-        return best.squared_distance * (1 + shape().relative_error) - static_cast<float>(differing);
+        return bound * (1 + shape().relative_error) - static_cast<float>(differing);
     }
     LORE_INLINE void compare(std::int32_t feature, int differing) {
-        take_if_nearer(best, feature,
-                       continuous_distance(query.values, values_of(feature), value_count()) +
-                           static_cast<float>(differing));
+        std::uint8_t const* const codes = codes_of(feature);
+        float const apart = __builtin_sqrtf(code_squares(shape(), question.codes, codes)) * (1.0f / 255);
+        float const rounding = rounding_of(shape(), question.codes) + rounding_of(shape(), codes);
+        float const error = relative_code_error + shape().relative_error, bits = static_cast<float>(differing);
+        float const nearer = apart * (1 - error) - rounding, near = nearer > 0 ? nearer : 0.0f;
+        float const far = apart * (1 + error) + rounding;
+        float const least = (near * near + bits) * (1 - error), most = (far * far + bits) * (1 + error);
+        if (least > bound) return;
+        scratch.finalists[finalists++] = {feature, differing, least, most};
+        if (most >= bound && nearest >= 0) return;
+        bound = most < bound ? most : bound;
+        nearest = feature;
+    }
+    /// Those that the last bound leaves.
+    LORE_INLINE int remaining() {
+        int kept = 0;
+        for (int i = 0; i < finalists; ++i)
+            if (scratch.finalists[i].least <= bound) scratch.finalists[kept++] = scratch.finalists[i];
+        return kept;
     }
 
     /// A table's bucket of the window.
-    LORE_INLINE Bucket bucket_of(int table) const {
+    LORE_INLINE Bucket const* bucket_of(int table) const {
         std::uint64_t const slot =
-            hash_slot(query.words, view.tables.masks + table * shape().words, shape().words, view.tables.slot_bits);
-        return view.tables.buckets[(static_cast<std::size_t>(table) << view.tables.slot_bits) + slot];
+            hash_slot(words(), view->tables.masks + table * shape().words, shape().words, view->tables.slot_bits);
+        return view->tables.buckets + ((static_cast<std::size_t>(table) << view->tables.slot_bits) + slot);
+    }
+    LORE_INLINE void fetch_buckets() const {
+        for (int table = 0; table < growing_tables(shape()); ++table) __builtin_prefetch(bucket_of(table));
+    }
+    LORE_INLINE void fetch(std::int32_t feature) const {
+        __builtin_prefetch(pattern_of(feature));
+        for (int at = 0; at < shape().code_size; at += 64) __builtin_prefetch(codes_of(feature) + at);
     }
 
     /// Puts the window's buckets into the order in which they are visited: often one is enough. First those of the
@@ -132,7 +174,7 @@ struct KeyedSearch {
         int const halves = shape().halves ? 2 : 0, tables = growing_tables(shape());
         std::uint32_t in_blocks[2] = {0, 0};
         for (int table = 0; table < tables; ++table) {
-            scratch.visits[table] = {bucket_of(table), table};
+            scratch.visits[table] = {*bucket_of(table), table};
             if (table >= halves) in_blocks[table % 2] += scratch.visits[table].bucket.count;
         }
         int const smaller = in_blocks[1] < in_blocks[0];
@@ -147,135 +189,241 @@ struct KeyedSearch {
                 scratch.visits[place] = scratch.visits[place - 1];
             scratch.visits[place] = visit;
         }
-        for (int visit = 0; visit < 2 && visit < tables; ++visit) {
-            __builtin_prefetch(view.keys + scratch.visits[visit].bucket.start);
-            __builtin_prefetch(view.numbers + scratch.visits[visit].bucket.start);
-        }
+        if (!by_tables) rest = scratch.visits[0].bucket;
+        choose_first();
     }
 
     /// Such a feature has been seen in one of the first `visits` buckets.
-    LORE_INLINE bool shares_a_block(std::uint64_t const* record, int visits) const {
+    LORE_INLINE bool shares_a_block(std::uint64_t const* pattern) const {
+        bool shares = false;
         for (int visit = 0; visit < visits; ++visit) {
-            std::uint64_t const* const mask = view.tables.masks + scratch.visits[visit].table * shape().words;
+            std::uint64_t const* const mask = view->tables.masks + scratch.visits[visit].table * shape().words;
             std::uint64_t differing = 0;
-            for (int word = 0; word < shape().words; ++word)
-                differing |= (query.words[word] ^ record[word]) & mask[word];
-            if (differing == 0) return true;
+            for (int word = 0; word < shape().words; ++word) differing |= (words()[word] ^ pattern[word]) & mask[word];
+            shares |= differing == 0;
         }
-        return false;
+        return shares;
     }
 
-    /// Writes the features of a bucket that may be better to scratch.promising, and returns how many. `visits` buckets
-    /// were seen before; who was in none of them differs in `unseen` bits or more.
-    LORE_INLINE int sift(Bucket bucket, int visits, int unseen) {
-        int const count =
-            near_keys(view.keys + bucket.start, view.numbers + bucket.start, static_cast<int>(bucket.count), key,
-                      most_bits(), shape().key_bound.largest(left(unseen)), scratch.numbers);
-        for (int i = 0; i < count; ++i) __builtin_prefetch(record_of(scratch.numbers[i]));
-        int kept = 0;
-        for (int i = 0; i < count; ++i) {
-            std::uint64_t const* const record = record_of(scratch.numbers[i]);
-            int const differing = differing_bits(record);
-            if (differing > most_bits() || shares_a_block(record, visits)) continue;
-            Digest digest;
-            std::memcpy(&digest, record + shape().words, sizeof digest);
-            Promising const one{digest.feature, differing, summary_distance(summary, digest)};
-            if (is_promising(one)) scratch.promising[kept++] = one;
-        }
-        return kept;
-    }
+    LORE_INLINE bool has_groups() const { return view->least != nullptr && bucket.count > 2 * key_group; }
+    /// How far apart the keys of a feature may be that was not seen yet.
+    LORE_INLINE std::int32_t largest() const { return shape().key_bound.largest(left(unseen)); }
 
+    LORE_INLINE bool is_wanted(std::int32_t feature) const { return feature < features && feature != compared; }
+    /// Whether a feature was not seen in another bucket and may be better; fills in the bits in which it differs.
+    /// Without a branch: what comes out cannot be foretold.
+    LORE_INLINE bool is_promising_and_new(Promising& one) const {
+        std::uint64_t const* const pattern = pattern_of(one.feature);
+        one.differing = differing_bits(pattern);
+        return static_cast<int>(one.differing <= most_bits()) & static_cast<int>(is_promising(one)) &
+               static_cast<int>(!shares_a_block(pattern));
+    }
     LORE_INLINE bool is_promising(Promising const& one) const {
-        return one.apart <= shape().summary_bound.largest(left(one.differing));
-    }
-    /// Grows with the squared distance that bits and summary let expect.
-    LORE_INLINE float expected(Promising const& one) const {
-        return static_cast<float>(one.apart) + shape().summary_bound.slope * static_cast<float>(one.differing);
+        return one.apart <= shape().key_bound.largest(left(one.differing));
     }
 
-    /// Compares those of a bucket that may be better, as sift() finds them. The one that is expected to be the nearest
-    /// comes first: it leaves little room for the others, whose values lie elsewhere in memory.
-    LORE_INLINE void look_through(Bucket bucket, int visits, int unseen) {
-        int const count = sift(bucket, visits, unseen);
-        if (count == 0) return;
-        Promising* const promising = scratch.promising;
-        int first = 0;
-        for (int i = 1; i < count; ++i)
-            if (expected(promising[i]) < expected(promising[first])) first = i;
-        compare(promising[first].feature, promising[first].differing);
-        int others = 0;
-        for (int i = 0; i < count; ++i) {
-            if (i == first || !is_promising(promising[i])) continue;
-            float const* const values = values_of(promising[i].feature);
-            for (int at = 0; at < value_count(); at += 16) __builtin_prefetch(values + at);
-            promising[others++] = promising[i];
-        }
-        for (int i = 0; i < others; ++i)
-            if (is_promising(promising[i])) compare(promising[i].feature, promising[i].differing);
-    }
-    /// The same by shares, the first of which find something that shortens the others.
-    LORE_INLINE void look_through_shares(Bucket bucket) {
-        while (bucket.count > 0) {
-            Bucket const share{bucket.start, bucket.count < keys_at_once ? bucket.count : keys_at_once};
-            look_through(share, 0, 0);
-            bucket.start += share.count;
-            bucket.count -= share.count;
-        }
-    }
+    // The steps, in this order; the last six for each bucket.
 
-    /// A feature in none of the buckets seen so far differs in a bit of each half and of each block that they were of.
-    LORE_INLINE void look_through_tables() {
-        int blocks[2] = {0, 0};      // seen, of the even and of the odd ones
-        int of_halves[2] = {0, 0};   // 1: the half was seen
-        for (int visit = 0; visit < growing_tables(shape()); ++visit) {
-            int unseen = 0;
+    /// What windows like this one matched last.
+    LORE_INLINE void choose_first() {
+        recent_slot = slot_of_recent();
+        if (scratch.recent == nullptr) return;
+        std::int32_t const recent =
+            scratch.last->slot == recent_slot ? scratch.last->feature : scratch.recent[recent_slot];
+        if (recent < 0 || recent >= features) return;
+        compared = recent;
+        fetch(recent);
+    }
+    LORE_INLINE void compare_first() {
+        if (compared >= 0) compare(compared, differing_bits(pattern_of(compared)));
+    }
+    /// False: no feature that was not seen may be better.
+    LORE_INLINE bool choose_bucket() {
+        if (!by_tables) {
+            bucket = {rest.start, rest.count < keys_at_once ? rest.count : keys_at_once};
+            rest = {rest.start + bucket.count, rest.count - bucket.count};
+            if (bucket.count == 0) return false;
+        } else {
+            // A feature in none of the buckets seen so far differs in a bit of each half and block that they were of.
+            unseen = 0;
             for (int half = 0; half < 2; ++half)
                 unseen += blocks[half] > of_halves[half] ? blocks[half] : of_halves[half];
-            if (best.squared_distance < static_cast<float>(unseen)) break;
-            look_through(scratch.visits[visit].bucket, visit, unseen);
-            int const table = scratch.visits[visit].table;
-            if (shape().halves && table < 2) of_halves[table] = 1;
-            else ++blocks[table % 2];
+            if (visits == growing_tables(shape()) || bound < static_cast<float>(unseen)) return false;
+            bucket = scratch.visits[visits].bucket;
         }
+        if (has_groups()) {
+            std::uint32_t const first = bucket.start / key_group, count = bucket.count / key_group;
+            for (std::uint32_t group = 0; group < count && group < fetched_at_most; group += 4) {
+                __builtin_prefetch(view->least + first + group);
+                __builtin_prefetch(view->most + first + group);
+            }
+        } else {
+            fetch_keys(bucket.start, bucket.count);
+        }
+        return true;
+    }
+    LORE_INLINE void fetch_keys(std::uint32_t start, std::uint32_t count) const {
+        for (std::uint32_t key = 0; key < count; key += 4) __builtin_prefetch(view->keys + start + key);
+    }
+    LORE_INLINE void look_at_groups() {
+        if (!has_groups()) return;
+        std::uint32_t const first = bucket.start / key_group, count = (bucket.count + key_group - 1) / key_group;
+        groups = near_keys(view->least + first, view->most + first, static_cast<int>(count),
+                           {question.key, most_bits(), largest()}, {scratch.groups, scratch.apart});
+        for (int i = 0; i < groups && i < fetched_at_most; ++i)
+            fetch_keys(static_cast<std::uint32_t>(scratch.groups[i]) * key_group, key_group);
+    }
+    LORE_INLINE int near_keys_of_bucket() {
+        NearKeys const near{question.key, most_bits(), largest()};
+        NearFeatures const out{scratch.features, scratch.apart};
+        Key const* const keys = view->keys + bucket.start;
+        if (!has_groups()) return near_keys(keys, keys, static_cast<int>(bucket.count), near, out);
+        int found = 0;
+        for (int i = 0; i < groups; ++i) {
+            std::uint32_t const start = static_cast<std::uint32_t>(scratch.groups[i]) * key_group;
+            std::uint32_t const behind = bucket.start + bucket.count - start;
+            int const size = behind < key_group ? static_cast<int>(behind) : key_group;
+            found += near_keys(view->keys + start, view->keys + start, size, near, out.from(found));
+        }
+        return found;
+    }
+    /// Puts the one whose key is the nearest at the end: it will leave little room for the others.
+    LORE_INLINE void look_at_keys() {
+        candidates = near_keys_of_bucket();
+        if (candidates == 0) return;
+        int first = 0;
+        for (int i = 1; i < candidates; ++i) first = scratch.apart[i] < scratch.apart[first] ? i : first;
+        std::int32_t const feature = scratch.features[first], apart = scratch.apart[first];
+        scratch.features[first] = scratch.features[candidates - 1];
+        scratch.apart[first] = scratch.apart[candidates - 1];
+        scratch.features[candidates - 1] = feature;
+        scratch.apart[candidates - 1] = apart;
+        fetch(feature);
+    }
+    LORE_INLINE void compare_nearest_key() {
+        if (candidates == 0) return;
+        --candidates;
+        Promising nearest_key{scratch.features[candidates], scratch.apart[candidates], 0};
+        if (is_wanted(nearest_key.feature) && is_promising_and_new(nearest_key))
+            compare(nearest_key.feature, nearest_key.differing);
+        std::int32_t const most = largest();
+        int kept = 0;
+        for (int i = 0; i < candidates; ++i) {
+            scratch.promising[kept] = {scratch.features[i], scratch.apart[i], 0};
+            kept += static_cast<int>(scratch.apart[i] <= most) & static_cast<int>(is_wanted(scratch.features[i]));
+        }
+        candidates = kept;
+        for (int i = 0; i < candidates; ++i) __builtin_prefetch(pattern_of(scratch.promising[i].feature));
+    }
+    LORE_INLINE void look_at_patterns() {
+        int kept = 0;
+        for (int i = 0; i < candidates; ++i) {
+            Promising one = scratch.promising[i];
+            bool const keep = is_promising_and_new(one);
+            scratch.promising[kept] = one;
+            kept += keep;
+        }
+        candidates = kept;
+        for (int i = 0; i < candidates; ++i) {
+            std::uint8_t const* const codes = codes_of(scratch.promising[i].feature);
+            for (int at = 0; at < shape().code_size; at += 64) __builtin_prefetch(codes + at);
+        }
+    }
+    LORE_INLINE void compare_others() {
+        for (int i = 0; i < candidates; ++i)
+            if (is_promising(scratch.promising[i]))
+                compare(scratch.promising[i].feature, scratch.promising[i].differing);
+        if (!by_tables) return;
+        int const table = scratch.visits[visits].table;
+        if (shape().halves && table < 2) of_halves[table] = 1;
+        else ++blocks[table % 2];
+        ++visits;
+    }
+    LORE_INLINE void remember() const {
+        if (scratch.recent == nullptr || nearest < 0) return;
+        scratch.recent[recent_slot] = nearest;
+        *scratch.last = {recent_slot, nearest};
     }
 
     /// The place in scratch.recent. Windows whose keys agree in their two highest bits are alike.
-    LORE_INLINE std::uint64_t recent_slot() const {
-        std::uint64_t const by_bits = hash_slot(query.words, nullptr, shape().words, recent_bits);
+    LORE_INLINE std::uint64_t slot_of_recent() const {
+        std::uint64_t const by_bits = hash_slot(words(), nullptr, shape().words, recent_bits);
         if (shape().hashes) return by_bits;
-        std::uint64_t coarse;
-        std::memcpy(&coarse, &key, sizeof coarse);
-        coarse &= 0x00c0c0c0c0c0c0c0u;
-        return by_bits ^ hash_slot(&coarse, nullptr, 1, recent_bits);
+        std::uint64_t coarse[2];
+        std::memcpy(coarse, &question.key, sizeof coarse);
+        constexpr std::uint64_t highest[2]{0xc0c0c0c0c0c0c0c0u, 0x0000000000c0c0c0u};   // of Key::sums
+        return by_bits ^ hash_slot(coarse, highest, 2, recent_bits);
     }
 };
 
-Nearest closest(KeyedView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch) {
-    Shape const& shape = view.shape;
-    KeyedSearch search{view, query, summary, key, scratch, {-1, shape.squared_threshold}};
-    search.order_visits();
-    std::int32_t& recent = scratch.recent[search.recent_slot()];
-    if (recent >= 0) search.compare(recent, search.differing_bits(search.record_of(recent)));
-    if (!shape.hashes) search.look_through_shares(scratch.visits[0].bucket);
-    else search.look_through_tables();
-    if (search.best.feature >= 0) recent = search.best.feature;
-    return search.best;
+LORE_INLINE KeyedSearch begun(KeyedView const& view, bool by_tables, Search const& asked) {
+    KeyedSearch search;
+    search.view = &view;
+    search.by_tables = by_tables;
+    search.question = asked.question;
+    search.scratch = asked.scratch;
+    search.features = asked.wanted.features;
+    search.bound = asked.wanted.bound;
+    return search;
 }
 
-Nearest closest_among(KeyedView const& view, Query const& query, Digest const& summary, Key const& key, Scratch scratch,
-                      Bucket places, Nearest best) {
-    KeyedSearch search{view, query, summary, key, scratch, best};
-    search.look_through_shares(places);
-    return search.best;
+template <int together>
+LORE_INLINE void search_together(KeyedView const& view, Search* asked, int count) {
+    KeyedSearch searches[together];
+    KeyedSearch* going[together];
+    for (int i = 0; i < count; ++i) {
+        searches[i] = begun(view, view.shape.hashes, asked[i]);
+        going[i] = &searches[i];
+        going[i]->fetch_buckets();
+    }
+    for (int i = 0; i < count; ++i) going[i]->order_visits();
+    for (int i = 0; i < count; ++i) going[i]->compare_first();
+    for (int left = count; left > 0;) {
+        int const before = left;
+        left = 0;
+        for (int i = 0; i < before; ++i)
+            if (going[i]->choose_bucket()) going[left++] = going[i];
+        for (int i = 0; i < left; ++i) going[i]->look_at_groups();
+        for (int i = 0; i < left; ++i) going[i]->look_at_keys();
+        for (int i = 0; i < left; ++i) going[i]->compare_nearest_key();
+        for (int i = 0; i < left; ++i) going[i]->look_at_patterns();
+        for (int i = 0; i < left; ++i) going[i]->compare_others();
+    }
+    for (int i = 0; i < count; ++i) {
+        searches[i].remember();
+        asked[i].finalists = searches[i].remaining();
+    }
+}
+
+void closest(KeyedView const& view, Search* asked, int count) {
+    if (count == 1) search_together<1>(view, asked, count);
+    else search_together<searches_together>(view, asked, count);
+}
+
+void closest_among(KeyedView const& view, Search& asked, Bucket places) {
+    KeyedSearch search = begun(view, false, asked);
+    search.rest = places;
+    while (search.choose_bucket()) {
+        search.look_at_groups();
+        search.look_at_keys();
+        search.compare_nearest_key();
+        search.look_at_patterns();
+        search.compare_others();
+    }
+    asked.finalists = search.remaining();
+}
+
+float distance(Shape const& shape, float const* a, float const* b) {
+    return continuous_distance(a, b, shape.window_length * shape.continuous);
 }
 
 bool any_within(KeyedView const& view, std::uint64_t const* words, Bucket places) {
     int const count = view.shape.words;
     for (std::uint32_t i = places.start; i < places.start + places.count; ++i) {
-        std::uint64_t const* const record =
-            view.records + static_cast<std::size_t>(view.numbers[i]) * static_cast<std::size_t>(record_size(count));
+        std::uint64_t const* const pattern =
+            view.patterns + static_cast<std::size_t>(view.keys[i].feature) * static_cast<std::size_t>(count);
         int differing = 0;
-        for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ record[word]);
+        for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
         if (differing <= view.shape.most_differing) return true;
     }
     return false;
@@ -353,7 +501,7 @@ Nearest nearest(FixedView const& view, Query const& query, Candidate const* cand
 }   // namespace
 
 Kernel kernel() {
-    return {pack, summarize, summarize_with_key, closest, closest_among, any_within, within, promising, nearest};
+    return {pack, summarize, describe, closest, closest_among, distance, any_within, within, promising, nearest};
 }
 
 }   // namespace lore::exact::LORE_ISA_NAMESPACE

@@ -15,8 +15,8 @@ namespace lore::exact {
 /// all steps, in number c mod 12. What is not needed is 0.
 inline constexpr int summary_size = 12;
 inline constexpr int summary_scale = 255;   ///< a summary's largest number
-/// Numbers of a key: the sum of continuous channel c over all steps is in number c mod 7.
-inline constexpr int key_size = 7;
+/// Numbers of a key: those of a summary, of which the last is in one with the first.
+inline constexpr int key_size = 11;
 inline constexpr int most_continuous = 80;   ///< channels: all that a world may have
 
 /// Says how far quantized sums of two windows may lie from each other: at most slope * left + offset, if the squares of
@@ -29,7 +29,7 @@ struct SumBound {
     }
 };
 
-/// What is derived from a configuration once (exact_index.cpp explains the bounds).
+/// What is derived from a configuration once (exact_shape.h explains the bounds).
 struct Shape {
     int window_length;
     int step_words;                       ///< 16-bit words that hold the bits of a step
@@ -48,6 +48,8 @@ struct Shape {
     int most_differing;   ///< bits
     float squared_threshold;
     float relative_error;   ///< of a squared distance in float
+    int code_size;          ///< bytes of a window's codes (exact_codes.h); 0 without continuous channels
+    float code_slack;       ///< what rounding in float may add to how far a window's codes lie from it
     SumBound summary_bound, key_bound;
 };
 
@@ -58,13 +60,17 @@ struct Digest {
 };
 static_assert(sizeof(Digest) == 16);
 
-/// Less, to pass over most features that share their bits with a window without looking at them: sums of the continuous
-/// channels over all steps, quantized, and how many bits are set (255: so many or more).
+/// To pass over most features that share some bits with a window without looking at them: sums of the continuous
+/// channels, quantized, and how many bits are set (255: so many or more).
 struct Key {
     std::uint8_t sums[key_size];
     std::uint8_t ones;
+    std::int32_t feature;
 };
-static_assert(sizeof(Key) == 8);
+static_assert(sizeof(Key) == 16);
+
+/// Keys whose smallest and largest numbers a set that grows knows: four cache lines of neighbors in one bucket.
+inline constexpr int key_group = 16;
 
 /// The features whose hashed bits fall into one slot of a table: places start .. start + count - 1.
 struct Bucket {
@@ -72,7 +78,7 @@ struct Bucket {
     std::uint32_t count;
 };
 
-/// A feature's pattern, then its Digest, in 64-bit words.
+/// A feature's pattern, then its Digest, in 64-bit words: of a final set.
 LORE_INLINE constexpr int record_size(int pattern_words) {
     return pattern_words + static_cast<int>(sizeof(Digest) / sizeof(std::uint64_t));
 }
@@ -85,14 +91,16 @@ struct Tables {
 };
 
 /// A set of features by their keys, as the kernel reads it: one that still grows, or a final one in falling order of
-/// worth (RankedKeys). A bucket's places are those of `keys` and `numbers`.
+/// worth (ranked_keys). A bucket's places are those of `keys`.
 struct KeyedView {
     Shape shape;
     Tables tables;
-    Key const* keys;                ///< [place]
-    std::int32_t const* numbers;    ///< [place]: the feature
-    std::uint64_t const* records;   ///< [feature][record_size]
-    float const* values;            ///< [feature][step][continuous channel]
+    Key const* keys;   ///< [place]
+    /// [place / key_group], of buckets with more than key_group places, which begin at whole groups: between these,
+    /// byte for byte, lie the group's keys. Null: not known.
+    Key const *least, *most;
+    std::uint64_t const* patterns;   ///< [feature][word]
+    std::uint8_t const* codes;       ///< [feature][code_size]
 };
 
 /// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
@@ -104,7 +112,14 @@ struct FixedView {
     std::int32_t const* limits;     ///< [differing bits]: largest summary distance of a match
 };
 
-/// A window as it is compared with features. What it points to belongs to the caller.
+/// A window as it is asked for among features by their keys. What it points to belongs to the caller.
+struct Question {
+    std::uint64_t const* words;   ///< its pattern
+    std::uint8_t const* codes;
+    Key key;   ///< of no feature
+};
+
+/// A window as it is compared with features of a final set.
 struct Query {
     std::uint64_t const* words;   ///< its pattern
     float const* values;
@@ -119,25 +134,58 @@ struct Visit {
 /// Tables of a set that grows.
 LORE_INLINE constexpr int growing_tables(Shape const& shape) { return shape.tables + (shape.halves ? 2 : 0); }
 
-/// A feature that bits and sums do not rule out.
+/// A feature that its key, and then its bits, do not rule out.
 struct Promising {
     std::int32_t feature;
+    std::int32_t apart;       ///< distance of the keys' sums
+    std::int32_t differing;   ///< bits, once its pattern was looked at
+};
+
+/// A feature that may be the nearest, as far as codes tell.
+struct Finalist {
+    std::int32_t feature;
     std::int32_t differing;   ///< bits
-    std::int32_t apart;       ///< distance of the summaries
+    float least, most;        ///< between these its squared distance lies
+};
+
+/// What a search found: for windows with this hash.
+struct Recent {
+    std::uint64_t slot;
+    std::int32_t feature;   ///< -1: none
 };
 
 /// Memory that a search by keys needs.
 struct Scratch {
-    Visit* visits;           ///< one a table: growing_tables
-    std::int32_t* numbers;   ///< room for the largest bucket and spare_numbers more
+    Visit* visits;   ///< one a table: growing_tables
+    /// Room for the largest bucket and spare_keys more: features, and how far apart the sums of their keys are.
+    std::int32_t *features, *apart;
+    std::int32_t* groups;   ///< room for the groups of the largest bucket and spare_keys more
     /// [2^recent_bits]: what windows like this one matched last, or -1; it is tried first, because the nearer a match
     /// is that is already known, the less there is to look at. Alike: their bits, or their keys where bits are not
-    /// hashed, have the same hash.
+    /// hashed, have the same hash. Null: nothing is remembered.
     std::int32_t* recent;
+    Recent* last;           ///< of the last search with this memory
     Promising* promising;   ///< room for the largest bucket
+    Finalist* finalists;    ///< room for as many as growing_tables of the largest buckets and one more
 };
 inline constexpr int recent_bits = 16;
-inline constexpr int spare_numbers = 8;
+inline constexpr int spare_keys = 4;   ///< that a vector writes beyond the last one
+
+/// Which features a search by keys is for.
+struct Wanted {
+    float bound;             ///< those whose squared distance is not greater
+    std::int32_t features;   ///< with smaller numbers
+};
+
+/// A search by keys: what is asked, and how many finalists it found.
+struct Search {
+    Question question;
+    Wanted wanted;
+    Scratch scratch;
+    int finalists;
+};
+/// So many are done together: each waits for memory most of the time, and while it does the others go on.
+inline constexpr int searches_together = 8;
 
 /// A feature that may lie within the threshold.
 struct Candidate {
@@ -154,13 +202,17 @@ struct Kernel {
     /// The pattern of a window: its binary channels, step after step.
     void (*pack)(Shape const&, std::uint16_t const* bits, std::uint64_t* words);
     void (*summarize)(Shape const&, float const* values, Digest&);
-    /// The same, and the key of a window with this pattern.
-    Key (*summarize_with_key)(Shape const&, std::uint64_t const* words, float const* values, Digest&);
-    /// The nearest within the threshold; among equals the lowest number.
-    Nearest (*closest)(KeyedView const&, Query const&, Digest const&, Key const&, Scratch);
-    /// The same among some places of a ranked set, if it is nearer than `best`; else `best`.
-    Nearest (*closest_among)(KeyedView const&, Query const&, Digest const&, Key const&, Scratch, Bucket places,
-                             Nearest best);
+    /// Writes a window's pattern and codes, and returns its key, which is of no feature.
+    Key (*describe)(Shape const&, std::uint16_t const* bits, float const* values, std::uint64_t* words,
+                    std::uint8_t* codes);
+    /// Writes those that may be the nearest of the wanted ones to Scratch::finalists, each once. The nearest is among
+    /// them if any of the wanted ones is not beyond the bound. At most searches_together; each has memory of its own,
+    /// but for Scratch::recent.
+    void (*closest)(KeyedView const&, Search*, int count);
+    /// The same of one among some places of a ranked set.
+    void (*closest_among)(KeyedView const&, Search&, Bucket places);
+    /// What the continuous values of two windows add to their squared distance.
+    float (*distance)(Shape const&, float const* a, float const* b);
     /// Whether the pattern of any of these features differs in few enough bits.
     bool (*any_within)(KeyedView const&, std::uint64_t const* words, Bucket places);
     /// Writes every feature whose pattern differs in few enough bits, some of them more than once, and returns how
@@ -174,5 +226,7 @@ struct Kernel {
 };
 
 LORE_KERNEL(Kernel kernel())
+
+Kernel kernel_of(Isa);
 
 }   // namespace lore::exact

@@ -37,10 +37,13 @@ SumBound scale_sums(Sizes const& sizes, float* scales) {
     return {static_cast<float>((1 + e) * scale), static_cast<float>((1 + 1 / e) * slack * slack + 1)};
 }
 
-/// Of channels that are dealt out to `numbers` numbers in turn, each over `steps` steps.
-Sizes dealt_out(int channels, int numbers, int steps) {
-    Sizes sizes(static_cast<std::size_t>(std::min(channels, numbers)));
-    for (int channel = 0; channel < channels; ++channel) sizes[static_cast<std::size_t>(channel % numbers)] += steps;
+/// Of the sums of all channels and blocks, dealt out to so many numbers in turn.
+Sizes dealt_out(Shape const& shape, int numbers) {
+    Sizes sizes(static_cast<std::size_t>(std::min(shape.blocks * shape.continuous, numbers)));
+    for (int i = 0; i < shape.blocks * shape.continuous; ++i) {
+        int const block = i / shape.continuous;
+        sizes[static_cast<std::size_t>(i % numbers)] += shape.block_starts[block + 1] - shape.block_starts[block];
+    }
     return sizes;
 }
 
@@ -50,14 +53,8 @@ void shape_sums(Shape& shape) {
     for (int block = 0; block <= shape.blocks; ++block)   // the first block is the longest
         shape.block_starts[block] =
             shape.blocks == 0 ? 0 : (block * shape.window_length + shape.blocks - 1) / shape.blocks;
-    Sizes sizes;
-    for (int block = 0; block < shape.blocks; ++block) {
-        int const steps = shape.block_starts[block + 1] - shape.block_starts[block];
-        Sizes const of_block = dealt_out(channels, summary_size, steps);
-        sizes.insert(sizes.end(), of_block.begin(), of_block.end());
-    }
-    shape.summary_bound = scale_sums(sizes, shape.scales);
-    shape.key_bound = scale_sums(dealt_out(channels, key_size, shape.window_length), shape.key_scales);
+    shape.summary_bound = scale_sums(dealt_out(shape, summary_size), shape.scales);
+    shape.key_bound = scale_sums(dealt_out(shape, key_size), shape.key_scales);
 }
 
 /// [part][word]: the bits of the blocks b with b mod `parts` equal to the part.
@@ -71,6 +68,8 @@ std::vector<std::uint64_t> masks_of_parts(Shape const& shape, int parts) {
 }
 
 }   // namespace
+
+Kernel kernel_of(Isa isa) { return kernel_for(isa, LORE_KERNELS(kernel))(); }
 
 Shape shape_of(KnowledgeConfig const& config) {
     Shape shape{};
@@ -86,6 +85,10 @@ Shape shape_of(KnowledgeConfig const& config) {
     shape.halves = shape.tables >= fewest_halved_blocks;
     shape.squared_threshold = config.squared_threshold();
     shape.relative_error = static_cast<float>((shape.continuous * config.window_length / 16.0 + 10) * 0x1p-23);
+    int const values = shape.continuous * config.window_length;
+    constexpr int line = 64;
+    shape.code_size = values == 0 ? 0 : (values + static_cast<int>(sizeof(float)) + line - 1) / line * line;
+    shape.code_slack = static_cast<float>(std::sqrt(static_cast<double>(values)) * 0x1p-22);
     shape_sums(shape);
     return shape;
 }

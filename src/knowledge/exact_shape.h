@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-// Three bounds let the exact index compute few distances. All follow from the configuration and the channels' kinds.
+// Four bounds let the exact index compute few distances. All follow from the configuration and the channels' kinds.
 //
 // 1. The squared distance is at least the number of differing bits, in float too: the sum of squares is not negative
 //    and the number of bits is added last. So a match differs in at most D bits, D the largest number below the squared
@@ -22,6 +22,8 @@
 //    values each is at most m times the sum of the m squared differences. Divide each group's sum by the square root
 //    of its m: the squared distance of two windows' sums is then at most that of their values. Sums over one channel
 //    and some steps, or over some channels and all steps, differ most: within them values tend to differ alike.
+// 4. A window whose values are rounded lies at a known distance from the window (exact_codes.h). By the triangle
+//    inequality the distance of two windows lies within both of these of that of their rounded ones.
 //
 // A group's sum lies between 0 and m. Scaled by 255 / sqrt(M m), M the largest m, and rounded to an integer it fits
 // into a byte, and squared distances of such integers are 255^2 / M times those of bound 3. That is rounded three

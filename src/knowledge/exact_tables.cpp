@@ -10,6 +10,8 @@ namespace lore::exact {
 
 namespace {
 
+constexpr std::size_t features_a_slot = 4;   ///< of a set that grows, at most
+
 /// The index in Tables::buckets of the bucket that a pattern belongs to.
 std::size_t bucket_of(int table, std::uint64_t const* pattern, std::vector<std::uint64_t> const& masks, int words,
                       int slot_bits) {
@@ -24,7 +26,8 @@ int words_of_a_mask(std::vector<std::uint64_t> const& masks, int tables) {
 }   // namespace
 
 std::uint64_t* Records::add() {
-    words_.resize(words_.size() + size_);
+    ++count_;
+    words_.resize(count_ * size_);
     return words_.data() + words_.size() - size_;
 }
 
@@ -32,27 +35,72 @@ GrowingTables::GrowingTables(int tables, std::vector<std::uint64_t> masks)
     : tables_(tables), words_(words_of_a_mask(masks, tables)), masks_(std::move(masks)),
       buckets_(static_cast<std::size_t>(tables) << slot_bits_) {}
 
-void GrowingTables::add(Records const& records, Key const& key) {
-    if (records.count() > std::size_t{1} << slot_bits_) double_slots(records);
-    std::size_t const number = records.count() - 1;
-    for (int table = 0; table < tables_; ++table)
-        insert(table, records[number], key, static_cast<std::int32_t>(number));
+void GrowingTables::add(Records const& patterns, Key key) {
+    if (patterns.count() > features_a_slot << slot_bits_) double_slots(patterns);
+    key.feature = static_cast<std::int32_t>(patterns.count() - 1);
+    for (int table = 0; table < tables_; ++table) insert(table, patterns, key);
 }
 
-void GrowingTables::insert(int table, std::uint64_t const* pattern, Key const& key, std::int32_t number) {
-    Bucket& bucket = buckets_[bucket_of(table, pattern, masks_, words_, slot_bits_)];
+void GrowingTables::insert(int table, Records const& patterns, Key const& key) {
+    Bucket& bucket =
+        buckets_[bucket_of(table, patterns[static_cast<std::size_t>(key.feature)], masks_, words_, slot_bits_)];
     bool const full = bucket.count == 0 || std::has_single_bit(bucket.count);
     if (full) {
-        std::uint32_t const start = take_room(std::max(1u, bucket.count * 2));
-        std::copy_n(keys_.begin() + bucket.start, bucket.count, keys_.begin() + start);
-        std::copy_n(numbers_.begin() + bucket.start, bucket.count, numbers_.begin() + start);
-        if (bucket.count > 0) free_[static_cast<std::size_t>(std::countr_zero(bucket.count))].push_back(bucket.start);
-        bucket.start = start;
+        std::span<Key> const moving = keys_of(bucket);
+        std::uint32_t const before = std::exchange(bucket.start, take_room(std::max(1u, bucket.count * 2)));
+        if (bucket.count > 0) give_back(before, bucket.count);
+        group(moving);
+        std::uint32_t place = bucket.start;
+        for (Key const& moved : moving) put(place++, moved);
     }
-    keys_[bucket.start + bucket.count] = key;
-    numbers_[bucket.start + bucket.count] = number;
+    put(bucket.start + bucket.count, key);
     ++bucket.count;
     largest_ = std::max(largest_, std::size_t{bucket.count});
+}
+
+void GrowingTables::put(std::uint32_t place, Key const& key) {
+    keys_[place] = key;
+    Key &least = least_[place / key_group], &most = most_[place / key_group];
+    if (place % key_group == 0) {
+        least = most = key;
+        least.feature = static_cast<std::int32_t>(place / key_group);
+        return;
+    }
+    for (int i = 0; i < key_size; ++i) {
+        least.sums[i] = std::min(least.sums[i], key.sums[i]);
+        most.sums[i] = std::max(most.sums[i], key.sums[i]);
+    }
+    least.ones = std::min(least.ones, key.ones);
+    most.ones = std::max(most.ones, key.ones);
+}
+
+std::span<Key> GrowingTables::keys_of(Bucket bucket) {
+    moving_.assign(keys_.data() + bucket.start, keys_.data() + bucket.start + bucket.count);
+    return moving_;
+}
+
+/// Halves them again and again by the number that differs most.
+void GrowingTables::group(std::span<Key> keys) {
+    if (keys.size() <= key_group) return;
+    auto const number = [](Key const& key, int which) { return which < key_size ? key.sums[which] : key.ones; };
+    Key least = keys[0], most = keys[0];
+    for (Key const& key : keys) {
+        for (int i = 0; i < key_size; ++i) {
+            least.sums[i] = std::min(least.sums[i], key.sums[i]);
+            most.sums[i] = std::max(most.sums[i], key.sums[i]);
+        }
+        least.ones = std::min(least.ones, key.ones);
+        most.ones = std::max(most.ones, key.ones);
+    }
+    int widest = 0;
+    auto const width = [&](int which) { return number(most, which) - number(least, which); };
+    for (int which = 1; which <= key_size; ++which)
+        if (width(which) > width(widest)) widest = which;
+    std::size_t const half = (keys.size() / key_group + 1) / 2 * key_group;
+    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),
+                     [&](Key const& a, Key const& b) { return number(a, widest) < number(b, widest); });
+    group(keys.first(half));
+    group(keys.subspan(half));
 }
 
 std::uint32_t GrowingTables::take_room(std::uint32_t places) {
@@ -62,28 +110,55 @@ std::uint32_t GrowingTables::take_room(std::uint32_t places) {
         free.pop_back();
         return start;
     }
-    auto const start = static_cast<std::uint32_t>(numbers_.size());
-    numbers_.resize(numbers_.size() + places);
-    keys_.resize(numbers_.size());
+    if (places < key_group) {   // rooms begin at whole groups, or are a part of one
+        std::uint32_t const start = take_room(places * 2);
+        give_back(start + places, places);
+        return start;
+    }
+    auto const start = static_cast<std::uint32_t>(keys_.size());
+    keys_.resize(keys_.size() + places);
+    least_.resize(keys_.size() / key_group);
+    most_.resize(keys_.size() / key_group);
     return start;
 }
 
-void GrowingTables::double_slots(Records const& records) {
-    auto const old_buckets = std::move(buckets_);
-    auto const old_keys = std::move(keys_);
-    auto const old_numbers = std::move(numbers_);
-    std::size_t const old_slots = std::size_t{1} << slot_bits_;
+void GrowingTables::give_back(std::uint32_t start, std::uint32_t places) {
+    free_[static_cast<std::size_t>(std::countr_zero(places))].push_back(start);
+}
+
+/// A slot has one bit more of the hash than before: each bucket becomes two, where its keys lie.
+void GrowingTables::double_slots(Records const& patterns) {
     ++slot_bits_;
-    buckets_.assign(static_cast<std::size_t>(tables_) << slot_bits_, {});
-    keys_.clear();
-    numbers_.clear();
-    for (auto& free : free_) free.clear();
+    PagedArray<Bucket> buckets{buckets_.size() * 2};
     largest_ = 0;
-    for (std::size_t i = 0; i < old_buckets.size(); ++i)
-        for (std::uint32_t place = old_buckets[i].start; place < old_buckets[i].start + old_buckets[i].count; ++place) {
-            std::int32_t const number = old_numbers[place];
-            insert(static_cast<int>(i / old_slots), records[static_cast<std::size_t>(number)], old_keys[place], number);
-        }
+    for (std::size_t i = 0; i < buckets_.size(); ++i) {
+        if (buckets_[i].count == 0) continue;
+        auto const halves = split(static_cast<int>(i >> (slot_bits_ - 1)), buckets_[i], patterns);
+        std::copy(halves.begin(), halves.end(), buckets.data() + 2 * i);
+        for (Bucket const& half : halves) largest_ = std::max(largest_, std::size_t{half.count});
+    }
+    buckets_ = std::move(buckets);
+}
+
+std::array<Bucket, 2> GrowingTables::split(int table, Bucket bucket, Records const& patterns) {
+    std::span<Key> const all = keys_of(bucket);
+    auto const moving = std::stable_partition(all.begin(), all.end(), [&](Key const& key) {
+        return bucket_of(table, patterns[static_cast<std::size_t>(key.feature)], masks_, words_, slot_bits_) % 2 == 0;
+    });
+    auto const stayed = static_cast<std::uint32_t>(moving - all.begin());
+    if (stayed == bucket.count) return {bucket, Bucket{}};
+    std::uint32_t const before = std::bit_ceil(bucket.count), now = std::bit_ceil(stayed);
+    if (stayed == 0) give_back(bucket.start, before);
+    else
+        for (std::uint32_t room = before; room > now; room /= 2) give_back(bucket.start + room / 2, room / 2);
+    std::array<Bucket, 2> const halves{{{stayed > 0 ? bucket.start : 0, stayed},
+                                        {take_room(std::bit_ceil(bucket.count - stayed)), bucket.count - stayed}}};
+    std::uint32_t place = halves[0].start;
+    for (auto key = all.begin(); key != all.end(); ++key) {
+        if (key == moving) place = halves[1].start;
+        put(place++, *key);
+    }
+    return halves;
 }
 
 FixedTables::FixedTables(int tables, std::vector<std::uint64_t> const& masks, Records const& records)
@@ -117,12 +192,10 @@ double FixedTables::usual_visits() const {
     return features_ == 0 ? 0 : squares / static_cast<double>(features_);
 }
 
-RankedKeys::RankedKeys(std::span<Key const> keys, std::span<double const> worth) : numbers_(keys.size()) {
-    std::iota(numbers_.begin(), numbers_.end(), 0);
-    auto const worth_of = [&](std::int32_t feature) { return worth[static_cast<std::size_t>(feature)]; };
-    std::stable_sort(numbers_.begin(), numbers_.end(),
-                     [&](std::int32_t a, std::int32_t b) { return worth_of(a) > worth_of(b); });
-    for (std::int32_t const feature : numbers_) keys_.push_back(keys[static_cast<std::size_t>(feature)]);
+std::vector<Key> ranked_keys(std::vector<Key> keys, std::span<double const> worth) {
+    auto const worth_of = [&](Key const& key) { return worth[static_cast<std::size_t>(key.feature)]; };
+    std::stable_sort(keys.begin(), keys.end(), [&](Key const& a, Key const& b) { return worth_of(a) > worth_of(b); });
+    return keys;
 }
 
 }   // namespace lore::exact

@@ -2,6 +2,8 @@
 
 #include "exact_kernel.h"
 
+#include <lore/core/paged_array.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,49 +12,57 @@
 
 namespace lore::exact {
 
-/// A feature's pattern and Digest, one after the other: what is held against a window that shares a block of bits.
+/// As many words a feature, beginning with its pattern; none if there are no binary channels.
 class Records {
 public:
-    explicit Records(int words) : size_(static_cast<std::size_t>(record_size(words))) {}
+    explicit Records(int words) : size_(static_cast<std::size_t>(words)) {}
     /// The next feature's, to be filled in.
     std::uint64_t* add();
-    void reserve(std::size_t features) { words_.reserve(features * size_); }
     std::uint64_t const* operator[](std::size_t feature) const { return words_.data() + feature * size_; }
-    std::size_t count() const { return words_.size() / size_; }
+    std::size_t count() const { return count_; }
     std::size_t record_words() const { return size_; }
 
 private:
-    std::size_t size_;
-    std::vector<std::uint64_t> words_;
+    std::size_t size_, count_ = 0;
+    PagedArray<std::uint64_t> words_;
 };
 
-/// Hash tables of a set that grows: buckets hold keys and numbers, 12 bytes a feature, and what else is needed of the
-/// few that these do not rule out is fetched from the records.
+/// Hash tables of a set that grows: buckets hold keys, and what else is needed of the few that these do not rule out is
+/// fetched by their feature. Where a bucket doubles, its keys are put into an order in which neighbors are alike, so
+/// that most groups of neighbors are ruled out by their range.
 class GrowingTables {
 public:
     GrowingTables(int tables, std::vector<std::uint64_t> masks);
 
-    /// The last of the records, which `key` belongs to.
-    void add(Records const&, Key const&);
+    /// The last of the patterns, which `key` belongs to.
+    void add(Records const& patterns, Key);
     Tables view() const { return {masks_.data(), buckets_.data(), slot_bits_}; }
     Key const* keys() const { return keys_.data(); }
-    std::int32_t const* numbers() const { return numbers_.data(); }
+    Key const* least() const { return least_.data(); }
+    Key const* most() const { return most_.data(); }
     std::size_t largest_bucket() const { return largest_; }
 
 private:
-    void insert(int table, std::uint64_t const* pattern, Key const&, std::int32_t number);
+    void insert(int table, Records const&, Key const&);
+    /// Room for places, a power of two, one after the other.
     std::uint32_t take_room(std::uint32_t places);
+    void give_back(std::uint32_t start, std::uint32_t places);
     void double_slots(Records const&);
+    std::array<Bucket, 2> split(int table, Bucket, Records const&);
+    void put(std::uint32_t place, Key const&);
+    /// A copy of a bucket's keys, valid until the next call.
+    std::span<Key> keys_of(Bucket);
+    static void group(std::span<Key>);
 
     int tables_, words_;
     std::vector<std::uint64_t> masks_;
-    int slot_bits_ = 8;                   ///< always at least as many slots as features
-    std::vector<Bucket> buckets_;         ///< with room for as many places as the next power of two
-    std::vector<Key> keys_;               ///< [place]
-    std::vector<std::int32_t> numbers_;   ///< [place]
-    std::array<std::vector<std::uint32_t>, 32>
-        free_;   ///< room left behind by buckets that moved, by log2 of its places
+    int slot_bits_ = 8;
+    PagedArray<Bucket> buckets_;                        ///< with room for as many places as the next power of two
+    PagedArray<Key> keys_;                              ///< [place]
+    std::array<std::vector<std::uint32_t>, 32> free_;   ///< room that buckets have left behind, by log2 of its places
+    PagedArray<Key> least_, most_;   ///< KeyedView::least and ::most; a group's number is the feature of its least
     std::size_t largest_ = 0;
+    std::vector<Key> moving_;   // scratch
 };
 
 /// Hash tables of a final set: buckets hold whole records.
@@ -77,16 +87,6 @@ private:
 };
 
 /// The keys of a final set whose bits tell its features not apart, in falling order of worth, then of numbers.
-class RankedKeys {
-public:
-    /// One of each a feature.
-    RankedKeys(std::span<Key const> keys, std::span<double const> worth);
-    Key const* keys() const { return keys_.data(); }
-    std::int32_t const* numbers() const { return numbers_.data(); }
-
-private:
-    std::vector<Key> keys_;
-    std::vector<std::int32_t> numbers_;
-};
+std::vector<Key> ranked_keys(std::vector<Key>, std::span<double const> worth);
 
 }   // namespace lore::exact

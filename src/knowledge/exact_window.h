@@ -108,16 +108,14 @@ LORE_INLINE void put_summary(Shape const& shape, Sums const& sums, Digest& diges
 
 LORE_INLINE Key key_of(Shape const& shape, std::uint64_t const* words, Sums const& sums) {
     float numbers[key_size]{};
-    for (int channel = 0; channel < shape.continuous; ++channel) {
-        float sum = sums[channel];
-        for (int block = 1; block < shape.blocks; ++block) sum += sums[block * shape.continuous + channel];
-        numbers[channel % key_size] += sum;
-    }
+    int const count = shape.blocks * shape.continuous;
+    for (int i = 0; i < count; ++i) numbers[i % key_size] += sums[i];
     Key key{};
     for (int i = 0; i < key_size; ++i) key.sums[i] = quantized(numbers[i], shape.key_scales[i]);
     int ones = 0;
     for (int word = 0; word < shape.words; ++word) ones += __builtin_popcountll(words[word]);
     key.ones = static_cast<std::uint8_t>(ones < 255 ? ones : 255);
+    key.feature = -1;
     return key;
 }
 

@@ -29,7 +29,7 @@ void flatten(KnowledgeConfig const& config, Window const& window, float* row) {
     }
 }
 
-class FlannIndex : public FeatureIndex {
+class FlannIndex : public GrowingIndex {
 public:
     FlannIndex(KnowledgeConfig const& config, int trees, int checks)
         : config_(config), columns_(static_cast<std::size_t>(config.window_length * config.channels.count())),
@@ -51,7 +51,7 @@ public:
         ++size_;
     }
     int size() const override { return size_; }
-    FeatureWindows release() override { return std::move(features_); }
+    WindowArrays release() override { return features_.release(); }
     std::unique_ptr<FeatureSearch> search() const override;
 
     Match match(Window const& window, std::vector<float>& row) const {
@@ -104,7 +104,7 @@ std::unique_ptr<FeatureSearch> FlannIndex::search() const { return std::make_uni
 
 }   // namespace
 
-std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const& config, int trees, int checks) {
+std::unique_ptr<GrowingIndex> make_flann_index(KnowledgeConfig const& config, int trees, int checks) {
     assert(trees >= 1 && checks >= 1);
     return std::make_unique<FlannIndex>(config, trees, checks);
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr auto index_names = names_for<IndexKind>("exact", "flann");
 
 /// Keeps all features and compares every one.
-class ScanIndex : public FeatureIndex {
+class ScanIndex : public GrowingIndex {
 public:
     explicit ScanIndex(KnowledgeConfig const& config) : config_(config) {}
 
@@ -20,7 +20,7 @@ public:
         ++size_;
     }
     int size() const override { return size_; }
-    FeatureWindows release() override { return std::move(features_); }
+    WindowArrays release() override { return features_.release(); }
     std::unique_ptr<FeatureSearch> search() const override;
 
     Match match(Window const& window) const {
@@ -70,6 +70,23 @@ Window FeatureWindows::window(int feature, KnowledgeConfig const& config) const 
     return {{bits.data() + number * words, words}, {values.data() + number * floats, floats}};
 }
 
+WindowArrays FeatureWindows::release() {
+    auto const kept = std::make_shared<FeatureWindows const>(std::move(*this));
+    return {kept->bits, kept->values, kept};
+}
+
+std::vector<int> GrowingIndex::take_up(std::span<Window const> windows, int) {
+    std::vector<int> numbers;
+    numbers.reserve(windows.size());
+    auto const asked = search();
+    for (Window const& window : windows) {
+        Match const match = asked->match(window);
+        numbers.push_back(match.found() ? match.feature : size());
+        if (!match.found()) add(window);
+    }
+    return numbers;
+}
+
 std::string_view name(IndexKind kind) { return index_names[kind]; }
 
 IndexKind index_kind(std::string_view name) {
@@ -77,7 +94,7 @@ IndexKind index_kind(std::string_view name) {
     throw UsageError(fmt::format("there is no index '{}'", name), "known are exact and flann", "Choose one of them.");
 }
 
-std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const& config) {
+std::unique_ptr<GrowingIndex> make_scan_index(KnowledgeConfig const& config) {
     return std::make_unique<ScanIndex>(config);
 }
 
@@ -86,15 +103,15 @@ std::string text(IndexChoice const& choice) {
     return usual ? std::string{name(choice.kind)} : fmt::format("{} with {} checks", name(choice.kind), choice.checks);
 }
 
-std::unique_ptr<FeatureIndex> make_index(IndexChoice choice, KnowledgeConfig const& config) {
-    return choice.kind == IndexKind::exact ? make_exact_index(config) : make_flann_index(config, 4, choice.checks);
+std::unique_ptr<GrowingIndex> make_index(IndexChoice choice, KnowledgeConfig const& config, std::string const& folder) {
+    return choice.kind == IndexKind::exact ? make_exact_index(config, folder)
+                                           : make_flann_index(config, 4, choice.checks);
 }
 
 std::unique_ptr<FeatureIndex> make_final_index(IndexChoice choice, KnowledgeBase const& base) {
     if (choice.kind == IndexKind::exact) return make_final_exact_index(base);
     auto index = make_index(choice, base.config());
     for (int feature = 0; feature < base.size(); ++feature) index->add(base.window(feature));
-    index->set_values(base.values());
     return index;
 }
 

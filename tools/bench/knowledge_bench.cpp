@@ -21,12 +21,12 @@ namespace lore {
 
 namespace {
 
-using Maker = std::unique_ptr<FeatureIndex> (*)();
+using Maker = std::unique_ptr<GrowingIndex> (*)();
 
-std::unique_ptr<FeatureIndex> scan() { return make_scan_index(usual_windows()); }
-std::unique_ptr<FeatureIndex> exact() { return make_exact_index(usual_windows()); }
-std::unique_ptr<FeatureIndex> flann_32() { return make_flann_index(usual_windows(), 4, 32); }
-std::unique_ptr<FeatureIndex> flann_128() { return make_flann_index(usual_windows(), 4, 128); }
+std::unique_ptr<GrowingIndex> scan() { return make_scan_index(usual_windows()); }
+std::unique_ptr<GrowingIndex> exact() { return make_exact_index(usual_windows()); }
+std::unique_ptr<GrowingIndex> flann_32() { return make_flann_index(usual_windows(), 4, 32); }
+std::unique_ptr<GrowingIndex> flann_128() { return make_flann_index(usual_windows(), 4, 128); }
 
 /// Of the last joint pool of the target run: the parents, or the children.
 Recordings lives_of_half(std::size_t half) {
@@ -83,7 +83,7 @@ void query(benchmark::State& state, Maker make, Isa isa, Asking asking) {
     std::vector<Window> const questions = every(asking.stride, children()), earlier = every(asking.stride, parents());
     KnowledgeBase const base =
         asking.teachers == usual_teachers ? learned_base() : build_base(asking.teachers, exact());
-    auto const filled = [&](std::unique_ptr<FeatureIndex> index) {
+    auto const filled = [&](std::unique_ptr<GrowingIndex> index) {
         for (int feature = 0; feature < base.size(); ++feature) index->add(base.window(feature));
         return index;
     };
@@ -122,21 +122,42 @@ void shaping(benchmark::State& state) {
     count_windows(state, children().windows.size() * children().windows[0].size());
 }
 
-using IndexMaker = std::unique_ptr<FeatureIndex> (*)(KnowledgeConfig const&);
+using IndexMaker = std::unique_ptr<GrowingIndex> (*)(KnowledgeConfig const&);
 
 template <int checks>
-std::unique_ptr<FeatureIndex> flann_for(KnowledgeConfig const& config) {
+std::unique_ptr<GrowingIndex> flann_for(KnowledgeConfig const& config) {
     return make_flann_index(config, 4, checks);
 }
 
-void continuous(benchmark::State& state, IndexMaker make, std::size_t stride, bool final) {
+std::unique_ptr<FeatureIndex> filled(std::unique_ptr<GrowingIndex> index) {
+    for (Window const& window : smooth_base().known) index->add(window);
+    return index;
+}
+
+template <IndexMaker make>
+std::unique_ptr<FeatureIndex> growing() {
+    return filled(make(smooth_base().config));
+}
+
+std::unique_ptr<FeatureIndex> exact_growing() { return filled(make_exact_index(smooth_base().config)); }
+
+std::unique_ptr<FeatureIndex> exact_final() {
+    SmoothBase const& smooth = smooth_base();
+    static KnowledgeBase const base = [&] {
+        FeatureWindows features;
+        for (Window const& window : smooth.known) features.add(smooth.config.channels, window);
+        std::vector<double> const worth(smooth.known.size(), 1.0);
+        return KnowledgeBase{
+            smooth.config,
+            {},
+            {features.bits, features.values, worth, worth, std::vector<std::uint32_t>(worth.size(), 1)}};
+    }();
+    return make_final_exact_index(base);
+}
+
+void continuous(benchmark::State& state, std::unique_ptr<FeatureIndex> (*make)(), std::size_t stride) {
     SmoothBase const& base = smooth_base();
-    auto const filled = [&](std::unique_ptr<FeatureIndex> index) {
-        for (Window const& window : base.known) index->add(window);
-        return index;
-    };
-    auto const index = filled(make(base.config)), truth_index = filled(make_exact_index(base.config));
-    if (final) index->set_values(std::vector<double>(base.known.size(), 1.0));
+    auto const index = make(), truth_index = exact_growing();
     auto const search = index->search(), truth = truth_index->search();
     std::vector<Window> questions;
     for (std::size_t i = 0; i < base.asked.size(); i += stride) questions.push_back(base.asked[i]);
@@ -154,18 +175,17 @@ void continuous(benchmark::State& state, IndexMaker make, std::size_t stride, bo
 void register_continuous() {
     struct Case {
         char const* name;
-        IndexMaker make;
+        std::unique_ptr<FeatureIndex> (*make)();
         std::size_t stride;
-        bool final;
     };
-    for (Case const& one : {Case{"exact_growing", make_exact_index, 1, false},
-                            {"exact_final", make_exact_index, 1, true},
-                            {"flann_4x32", flann_for<32>, 4, false},
-                            {"flann_4x128", flann_for<128>, 4, false},
-                            {"flann_4x512", flann_for<512>, 4, false},
-                            {"scan", make_scan_index, 100, false}})
+    for (Case const& one : {Case{"exact_growing", exact_growing, 1},
+                            {"exact_final", exact_final, 1},
+                            {"flann_4x32", growing<flann_for<32>>, 4},
+                            {"flann_4x128", growing<flann_for<128>>, 4},
+                            {"flann_4x512", growing<flann_for<512>>, 4},
+                            {"scan", growing<make_scan_index>, 100}})
         benchmark::RegisterBenchmark(("knowledge/continuous/" + std::string{one.name}).c_str(), continuous, one.make,
-                                     one.stride, one.final)
+                                     one.stride)
             ->Unit(benchmark::kMillisecond);
 }
 

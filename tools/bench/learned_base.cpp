@@ -58,7 +58,7 @@ Recordings const& teachers() {
 
 KnowledgeConfig usual_windows() { return {20, 1.83f, collectball_channels()}; }
 
-KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_index) {
+KnowledgeBase build_base(int individuals, std::unique_ptr<GrowingIndex> empty_index) {
     KnowledgeBuilder builder{usual_windows(), std::move(empty_index)};
     std::size_t const count = std::min(static_cast<std::size_t>(individuals), teachers().windows.size());
     for (std::size_t i = 0; i < count; ++i) builder.add_individual({teachers().windows[i], teachers().rewards[i]});

@@ -26,7 +26,7 @@ inline constexpr int usual_teachers = 600;
 KnowledgeConfig usual_windows();
 
 /// A knowledge base from the first `individuals` of the teachers (all, if there are fewer).
-KnowledgeBase build_base(int individuals, std::unique_ptr<FeatureIndex> empty_index);
+KnowledgeBase build_base(int individuals, std::unique_ptr<GrowingIndex> empty_index);
 /// From the usual ones; built once per program.
 KnowledgeBase const& learned_base();
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace lore::kb {
 
@@ -85,9 +86,11 @@ void build(Program const& program, BuildOptions const& options) {
     };
     Provenance provenance;
     provenance.made_by = made_by(program);
-    KnowledgeBase const base =
-        options.all ? knowledge_of_all(run, options.every, config, index, provenance, observe, gammas, options.success)
-                    : knowledge_of_lineage(run, *individual, config, index, provenance, observe, gammas);
+    std::string const folder = std::filesystem::path{options.out}.parent_path().string();
+    KnowledgeBase const base = options.all
+                                   ? knowledge_of_all(run, options.every, config, index, provenance, observe, gammas,
+                                                      options.success, folder.empty() ? "." : folder)
+                                   : knowledge_of_lineage(run, *individual, config, index, provenance, observe, gammas);
     write_knowledge_base(options.out, value.rule == ValueRule::mean ? base : valued(base, value));
     say(program, fmt::format("wrote {}: {} features from {} windows of {} individuals", options.out, base.size(),
                              base.provenance().windows, base.provenance().individuals));

@@ -31,10 +31,12 @@ KnowledgeBase knowledge_of_lineage(RunDirectory const&, Birth const& individual,
                                    Provenance, BuildingObserver const&, std::vector<double> gammas = default_gammas());
 /// The same over all individuals ever evaluated, in order of birth ("KB all"); over the first and every `every`-th
 /// after it, if that is not 1. Throws Error if the run did not keep them. Gathers evidence of contrast and of returns.
-/// `success_reward`: so much makes a success; none: usual_success.
+/// `success_reward`: so much makes a success; none: usual_success. `folder`: where files without a name keep the
+/// windows of features until the base is gone, if the index is an exact one, since of many they would not fit into
+/// memory; empty: in memory.
 KnowledgeBase knowledge_of_all(RunDirectory const&, int every, KnowledgeConfig const&, IndexChoice, Provenance,
                                BuildingObserver const&, std::vector<double> gammas = default_gammas(),
-                               std::optional<double> success_reward = {});
+                               std::optional<double> success_reward = {}, std::string const& folder = {});
 
 /// How many individuals the run archived (--archive all).
 std::uint64_t archived_individuals(RunDirectory const&);

@@ -19,13 +19,12 @@ class EvidenceGatherer;
 class KnowledgeBuilder {
 public:
     /// `index` is empty and was made for the same configuration.
-    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<FeatureIndex> index, EvidenceConfig = {});
+    KnowledgeBuilder(KnowledgeConfig, std::unique_ptr<GrowingIndex> index, EvidenceConfig = {});
     ~KnowledgeBuilder();
     KnowledgeBuilder(KnowledgeBuilder&&) noexcept;
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
-    void add_individual(Exhibit const&);
-    /// As add_individual for each in order, with the search shared among threads. Precondition: the index is an exact
-    /// one.
+    void add_individual(Exhibit const& exhibit) { add_individuals({&exhibit, 1}, 1); }
+    /// As add_individual for each in order, with the search shared among threads where the index can.
     void add_individuals(std::span<Exhibit const>, int threads);
     int features() const { return static_cast<int>(counts_.size()); }
     std::uint64_t individuals() const { return individuals_; }
@@ -35,14 +34,11 @@ public:
     KnowledgeBase finish(Provenance) &&;
 
 private:
-    int add_feature();
-    void begin_individual(Exhibit const&);
+    void add_feature();
     void show(int feature, std::size_t window, double reward);
-    std::vector<Match> match_all(std::span<Window const* const>, int threads);
 
     KnowledgeConfig config_;
-    std::unique_ptr<FeatureIndex> index_;
-    std::vector<std::unique_ptr<FeatureSearch>> searches_;   ///< one a thread
+    std::unique_ptr<GrowingIndex> index_;
     std::vector<double> sums_;
     std::vector<std::uint32_t> counts_;
     std::unique_ptr<EvidenceGatherer> evidence_;   ///< null if none is wanted

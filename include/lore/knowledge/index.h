@@ -42,13 +42,11 @@ public:
     /// The nearest feature if it lies nearer than the threshold (strict; ties: the lowest number).
     virtual Match match(Window const&) = 0;
     /// match(), where only a feature worth more than `least` is of interest: anything else may be reported as none.
-    /// Precondition: FeatureIndex::set_values was called.
     virtual Match match_above(Window const& window, double least) {
         (void)least;
         return match(window);
     }
     /// False if no window with these bits, whatever its values, matches a feature worth more than `least`.
-    /// Precondition as above.
     virtual bool may_match_above(std::span<std::uint16_t const> bits, double least) {
         (void)bits;
         (void)least;
@@ -56,39 +54,54 @@ public:
     }
 };
 
-/// The windows of features, one after the other; the only copy while a knowledge base is being built.
-struct FeatureWindows {
-    std::vector<std::uint16_t> bits;   ///< [feature][step][word], the bits of binary channels alone
-    std::vector<float> values;         ///< [feature][step][continuous channel]
-
-    void add(Channels const&, Window const&);
-    Window window(int feature, KnowledgeConfig const&) const;   ///< valid until the next add
-};
-
-/// Finds the nearest feature of a growing set of windows, which it copies. Reading it (by searches, also from several
-/// threads) and adding to it exclude each other.
+/// A set of features that can be searched, also by several threads at once.
 class FeatureIndex {
 public:
     virtual ~FeatureIndex() = default;
-    /// Feature number = order of addition. Precondition: values were not set yet.
-    virtual void add(Window const&) = 0;
     virtual int size() const = 0;
-    /// Hands over the windows of all features; nothing but destruction may follow.
-    virtual FeatureWindows release() = 0;
     virtual std::unique_ptr<FeatureSearch> search() const = 0;
-    /// What each feature is worth, once all are added; lets match_above pass over the others.
-    virtual void set_values(std::span<double const>) {}
+};
+
+/// The windows of features as a knowledge base keeps them; `keep_alive` owns the memory behind the spans.
+struct WindowArrays {
+    std::span<std::uint16_t const> bits;   ///< [feature][step][word], the bits of binary channels alone
+    std::span<float const> values;         ///< [feature][step][continuous channel]
+    std::shared_ptr<void const> keep_alive;
+};
+
+/// The windows of features in memory, one after the other.
+struct FeatureWindows {
+    std::vector<std::uint16_t> bits;   ///< as WindowArrays, as is what follows
+    std::vector<float> values;
+
+    void add(Channels const&, Window const&);
+    Window window(int feature, KnowledgeConfig const&) const;   ///< valid until the next add
+    WindowArrays release();                                     ///< leaves nothing behind
+};
+
+/// A set that grows, and copies the windows that it is given. Searching it and adding to it exclude each other.
+class GrowingIndex : public FeatureIndex {
+public:
+    /// Feature number = order of addition.
+    virtual void add(Window const&) = 0;
+    /// Takes up windows in order: the number of each one's match, or of the feature that it becomes because it has
+    /// none. The numbers do not depend on the threads, which share the work where that is possible.
+    virtual std::vector<int> take_up(std::span<Window const>, int threads);
+    /// Hands over the windows of all features; nothing but destruction may follow.
+    virtual WindowArrays release() = 0;
 };
 
 /// The definition: every feature is compared.
-std::unique_ptr<FeatureIndex> make_scan_index(KnowledgeConfig const&);
-/// Exact and fast: bounds by bits, then by summaries, then the exact distance (docs/design/performance.md).
-std::unique_ptr<FeatureIndex> make_exact_index(KnowledgeConfig const&);
+std::unique_ptr<GrowingIndex> make_scan_index(KnowledgeConfig const&);
+/// Exact and fast: bounds by bits, then by summaries, then by rounded values, then the exact distance
+/// (docs/design/performance.md). `folder`: where a file without a name keeps the windows, which are most of its memory;
+/// empty: in memory. Throws Error: that file cannot be written.
+std::unique_ptr<GrowingIndex> make_exact_index(KnowledgeConfig const&, std::string const& folder = {});
 /// FLANN's KDTree forest with a fixed number of checks: approximate, and not repeatable from process to process.
-std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = usual_checks);
-std::unique_ptr<FeatureIndex> make_index(IndexChoice, KnowledgeConfig const&);
-/// A final set: answers as an index that was given the base's features one by one and then their values, and is made
-/// in less time and memory. Reads the base's windows where they are: the base must outlive it. Has none to release.
+std::unique_ptr<GrowingIndex> make_flann_index(KnowledgeConfig const&, int trees = 4, int checks = usual_checks);
+std::unique_ptr<GrowingIndex> make_index(IndexChoice, KnowledgeConfig const&, std::string const& folder = {});
+/// A final set, which knows what its features are worth: answers as a growing index that was given the base's windows,
+/// and may pass over those worth too little. Reads the base's windows where they are: the base must outlive it.
 std::unique_ptr<FeatureIndex> make_final_exact_index(KnowledgeBase const&);
 std::unique_ptr<FeatureIndex> make_final_index(IndexChoice, KnowledgeBase const&);
 

@@ -17,7 +17,7 @@
 namespace lore {
 
 /// FLANN sees rows of numbers, and takes long to compile.
-std::unique_ptr<FeatureIndex> make_flann_index(KnowledgeConfig const&, int, int) { return nullptr; }
+std::unique_ptr<GrowingIndex> make_flann_index(KnowledgeConfig const&, int, int) { return nullptr; }
 
 }   // namespace lore
 

@@ -65,7 +65,8 @@ TEST_P(EveryConfiguration, gives_the_matches_of_the_scan) {
     LivesShown const lives{static_cast<std::uint32_t>(window_length), 3, 30 * window_length + 100};
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     auto const scan_search = scan->search(), exact_search = exact->search();
-    for (Window const& window : windows_of_all(lives.known, window_length)) {
+    std::vector<Window> const known = windows_of_all(lives.known, window_length);
+    for (Window const& window : known) {
         scan->add(window);
         exact->add(window);
     }
@@ -79,9 +80,11 @@ TEST_P(EveryConfiguration, gives_the_matches_of_the_scan) {
     }
     EXPECT_GT(found, 0);
     // Once the set is final, patterns are remembered: ask everything twice.
-    exact->set_values(std::vector<double>(static_cast<std::size_t>(exact->size()), 1.0));
+    KnowledgeBase const base = test::base_of(config, known, std::vector<double>(known.size(), 1.0));
+    auto const final = make_final_exact_index(base);
+    auto const final_search = final->search();
     for (int round = 0; round < 2; ++round)
-        for (std::size_t i = 0; i < queries.size(); ++i) ASSERT_EQ(exact_search->match(queries[i]), expected[i]);
+        for (std::size_t i = 0; i < queries.size(); ++i) ASSERT_EQ(final_search->match(queries[i]), expected[i]);
 }
 
 TEST_P(EveryConfiguration, finds_what_lies_just_inside_the_threshold_whatever_the_channel) {
@@ -179,16 +182,20 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_share_their_bits) {
     for (std::vector<Trace>* traces : {&lives.known, &lives.asked})
         for (Trace& trace : *traces)
             std::fill(trace.channel_bits.begin(), trace.channel_bits.end(), std::uint16_t{0x7E00});
+    std::vector<Window> const known = windows_of_all(lives.known, config.window_length);
+    KnowledgeBase const base = test::base_of(config, known, std::vector<double>(known.size(), 1.0));
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
-    for (Window const& window : windows_of_all(lives.known, config.window_length)) {
+    for (Window const& window : known) {
         scan->add(window);
         exact->add(window);
     }
-    auto const scan_search = scan->search(), exact_search = exact->search();
-    std::vector<Window> const queries = windows_of_all(lives.asked, config.window_length);
-    for (Window const& window : queries) ASSERT_EQ(exact_search->match(window), scan_search->match(window));
-    exact->set_values(std::vector<double>(static_cast<std::size_t>(exact->size()), 1.0));
-    for (Window const& window : queries) ASSERT_EQ(exact_search->match(window), scan_search->match(window));
+    auto const final = make_final_exact_index(base);
+    auto const scan_search = scan->search(), exact_search = exact->search(), final_search = final->search();
+    for (Window const& window : windows_of_all(lives.asked, config.window_length)) {
+        Match const expected = scan_search->match(window);
+        ASSERT_EQ(exact_search->match(window), expected);
+        ASSERT_EQ(final_search->match(window), expected);
+    }
 }
 
 TEST(ExactIndex, equals_the_scan_on_ten_thousand_windows_of_robots_that_evolved) {
@@ -242,13 +249,13 @@ TEST(ExactIndex, takes_queries_beyond_the_range_of_sensors) {
 TEST(ExactIndex, reports_no_feature_that_is_worth_less_than_asked_for_unless_it_is_the_nearest) {
     KnowledgeConfig const config = test::config_of();
     LivesShown const lives{7, 3, 2000};
-    auto const exact = make_exact_index(config);
-    for (Window const& window : windows_of_all(lives.known, config.window_length)) exact->add(window);
+    std::vector<Window> const known = windows_of_all(lives.known, config.window_length);
     Stream rng{7, Purpose::test};
-    std::vector<double> worth(static_cast<std::size_t>(exact->size()));
+    std::vector<double> worth(known.size());
     for (double& value : worth) value = rng.below(8);
-    exact->set_values(worth);
-    auto const search = exact->search();
+    KnowledgeBase const base = test::base_of(config, known, worth);
+    auto const index = make_final_exact_index(base);
+    auto const search = index->search();
     int dismissed_by_bits = 0;
     for (Window const& window : windows_of_all(lives.asked, config.window_length)) {
         Match const nearest = search->match(window);

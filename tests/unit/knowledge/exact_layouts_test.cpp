@@ -1,4 +1,5 @@
 #include "knowledge/layouts.h"
+#include "knowledge/traces.h"
 
 #include <lore/core/isa.h>
 #include <lore/knowledge/builder.h>
@@ -51,32 +52,18 @@ void expect_worth(FeatureSearch& search, std::span<double const> worth, Window c
     EXPECT_TRUE(search.may_match_above(window.bits, least) || !wanted);
 }
 
-/// An index that was made of a base at once, beside one that was added to and is final.
-void expect_equal_answers(KnowledgeBase const& base, FeatureSearch& added_to, std::span<Window const> asked) {
-    auto const at_once = make_final_exact_index(base);
-    EXPECT_EQ(at_once->size(), base.size());
-    auto const search = at_once->search();
-    for (Window const& window : asked) {
-        ASSERT_EQ(search->match(window), added_to.match(window));
-        for (double const least : {-1.0, 2.0, 4.0}) {
-            ASSERT_EQ(search->match_above(window, least), added_to.match_above(window, least));
-            ASSERT_EQ(search->may_match_above(window.bits, least), added_to.may_match_above(window.bits, least));
-        }
-    }
-}
-
 void expect_agreement(KnowledgeConfig const& config, std::uint32_t slot) {
     Asked const lives{config.channels, slot, 2, 20 * config.window_length + 50};
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
     auto const scan_search = scan->search(), exact_search = exact->search();
     std::vector<Window> const known = all_windows(lives.known, config.window_length),
                               asked = all_windows(lives.asked, config.window_length);
-    FeatureWindows features;
+    std::vector<Window> features;
     for (Window const& window : known) {   // while the set grows
         Match const expected = scan_search->match(window);
         ASSERT_EQ(exact_search->match(window), expected);
         if (expected.found()) continue;
-        features.add(config.channels, window);
+        features.push_back(window);
         scan->add(window);
         exact->add(window);
     }
@@ -86,17 +73,17 @@ void expect_agreement(KnowledgeConfig const& config, std::uint32_t slot) {
         ASSERT_EQ(exact_search->match(window), expected.back());
     }
     Stream rng{62, Purpose::test, 0, slot};
-    std::vector<double> worth(static_cast<std::size_t>(exact->size()));
+    std::vector<double> worth(features.size());
     for (double& value : worth) value = rng.below(5);
-    exact->set_values(worth);
-    for (int round = 0; round < 2; ++round)
+    KnowledgeBase const base = test::base_of(config, features, worth);
+    auto const final = make_final_exact_index(base);
+    EXPECT_EQ(final->size(), base.size());
+    auto const final_search = final->search();
+    for (int round = 0; round < 2; ++round)   // patterns are remembered
         for (std::size_t i = 0; i < asked.size(); ++i) {
-            ASSERT_EQ(exact_search->match(asked[i]), expected[i]);
-            expect_worth(*exact_search, worth, asked[i], expected[i], static_cast<double>(rng.below(6)) - 1);
+            ASSERT_EQ(final_search->match(asked[i]), expected[i]);
+            expect_worth(*final_search, worth, asked[i], expected[i], static_cast<double>(rng.below(6)) - 1);
         }
-    std::vector<std::uint32_t> const counts(worth.size(), 1);
-    expect_equal_answers(KnowledgeBase{config, {}, {features.bits, features.values, worth, worth, counts}},
-                         *exact_search, asked);
 }
 
 }   // namespace
@@ -131,26 +118,27 @@ TEST_P(EveryLayout, finds_what_lies_just_inside_the_threshold_where_the_bounds_a
     KnowledgeConfig const config{20, 1.83f, test::channels_of(GetParam(), rng)};
     int const continuous = GetParam().continuous;
     Trace feature = test::blank_trace(config.channels, 20);
+    std::vector<Window> const features = windows_of(feature, 20);
+    KnowledgeBase const base = test::base_of(config, features, {1});
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
-    scan->add(windows_of(feature, 20)[0]);
-    exact->add(windows_of(feature, 20)[0]);
-    auto const scan_search = scan->search(), exact_search = exact->search();
-    auto const expect_equal = [&](Trace const& query) {
-        Window const window = windows_of(query, 20)[0];
-        ASSERT_EQ(exact_search->match(window), scan_search->match(window));
-    };
-    for (int round = 0; round < 2; ++round, exact->set_values(std::vector<double>{1}))
-        for (int channels = 1; channels <= continuous; channels += 1 + channels / 3)
-            for (int const steps : {1, 2, 3, 5, 10, 20})
-                for (float const share : {0.999f, 0.99999f, 1.0f, 1.00001f}) {
-                    float const level =
-                        std::sqrt(config.squared_threshold() / static_cast<float>(channels * steps)) * share;
-                    if (level > 1) continue;
-                    Trace query = feature;
-                    for (int step = 0; step < steps; ++step)
-                        std::fill_n(query.values.begin() + step * continuous, channels, level);
-                    expect_equal(query);
-                }
+    auto const final = make_final_exact_index(base);
+    scan->add(features[0]);
+    exact->add(features[0]);
+    auto const scan_search = scan->search(), exact_search = exact->search(), final_search = final->search();
+    for (int channels = 1; channels <= continuous; channels += 1 + channels / 3)
+        for (int const steps : {1, 2, 3, 5, 10, 20})
+            for (float const share : {0.999f, 0.99999f, 1.0f, 1.00001f}) {
+                float const level =
+                    std::sqrt(config.squared_threshold() / static_cast<float>(channels * steps)) * share;
+                if (level > 1) continue;
+                Trace query = feature;
+                for (int step = 0; step < steps; ++step)
+                    std::fill_n(query.values.begin() + step * continuous, channels, level);
+                Window const window = windows_of(query, 20)[0];
+                Match const expected = scan_search->match(window);
+                ASSERT_EQ(exact_search->match(window), expected);
+                ASSERT_EQ(final_search->match(window), expected);
+            }
 }
 
 TEST(ExactIndex, equals_the_scan_on_random_layouts) {
@@ -170,25 +158,24 @@ TEST(ExactIndex, equals_the_scan_where_thousands_of_features_have_no_bits) {
     Stream rng{67, Purpose::test};
     KnowledgeConfig const config{5, 0.4f, test::channels_of({0, 4}, rng)};
     Asked const lives{config.channels, 300, 4, 5000};
+    std::vector<Window> const known = all_windows(lives.known, config.window_length),
+                              asked = all_windows(lives.asked, config.window_length);
+    ASSERT_GE(known.size(), 4000u);
+    std::vector<double> worth;
+    for (std::size_t i = 0; i < known.size(); ++i) worth.push_back(rng.below(100));
+    KnowledgeBase const base = test::base_of(config, known, worth);
     auto const scan = make_scan_index(config), exact = make_exact_index(config);
-    for (Window const& window : all_windows(lives.known, config.window_length)) {
+    auto const final = make_final_exact_index(base);
+    for (Window const& window : known) {
         scan->add(window);
         exact->add(window);
     }
-    ASSERT_GE(exact->size(), 4000);
-    auto const scan_search = scan->search(), exact_search = exact->search();
-    std::vector<Window> asked = all_windows(lives.asked, config.window_length);
-    std::vector<Match> expected;
+    auto const scan_search = scan->search(), exact_search = exact->search(), final_search = final->search();
     for (std::size_t i = 0; i < asked.size(); i += 7) {
-        expected.push_back(scan_search->match(asked[i]));
-        ASSERT_EQ(exact_search->match(asked[i]), expected.back());
-    }
-    std::vector<double> worth;
-    for (int i = 0; i < exact->size(); ++i) worth.push_back(rng.below(100));
-    exact->set_values(worth);
-    for (std::size_t i = 0, n = 0; i < asked.size(); i += 7, ++n) {
-        ASSERT_EQ(exact_search->match(asked[i]), expected[n]);
-        expect_worth(*exact_search, worth, asked[i], expected[n], rng.below(100));
+        Match const expected = scan_search->match(asked[i]);
+        ASSERT_EQ(exact_search->match(asked[i]), expected);
+        ASSERT_EQ(final_search->match(asked[i]), expected);
+        expect_worth(*final_search, worth, asked[i], expected, rng.below(100));
     }
 }
 

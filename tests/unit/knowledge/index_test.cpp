@@ -1,11 +1,14 @@
 #include "knowledge/traces.h"
+#include "support/scratch.h"
 
 #include <lore/core/error.h>
 #include <lore/knowledge/index.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 using namespace lore;
 using lore::test::trace_of;
@@ -13,17 +16,19 @@ using lore::test::trace_of;
 namespace {
 
 /// Windows of one step with one binary channel pattern and one level each, as features.
-std::unique_ptr<FeatureIndex> index_of(std::unique_ptr<FeatureIndex> index, Trace const& trace, int window_length) {
+std::unique_ptr<GrowingIndex> index_of(std::unique_ptr<GrowingIndex> index, Trace const& trace, int window_length) {
     for (Window const& window : windows_of(trace, window_length)) index->add(window);
     return index;
 }
+
+std::unique_ptr<GrowingIndex> exact_index(KnowledgeConfig const& config) { return make_exact_index(config); }
 
 Match match(FeatureIndex const& index, Window const& window) { return index.search()->match(window); }
 
 }   // namespace
 
-class EveryExactIndex : public testing::TestWithParam<std::unique_ptr<FeatureIndex> (*)(KnowledgeConfig const&)> {};
-INSTANTIATE_TEST_SUITE_P(, EveryExactIndex, testing::Values(make_scan_index, make_exact_index));
+class EveryExactIndex : public testing::TestWithParam<std::unique_ptr<GrowingIndex> (*)(KnowledgeConfig const&)> {};
+INSTANTIATE_TEST_SUITE_P(, EveryExactIndex, testing::Values(make_scan_index, exact_index));
 
 TEST_P(EveryExactIndex, finds_nothing_in_an_empty_set) {
     auto const index = GetParam()(test::config_of(1));
@@ -82,4 +87,45 @@ TEST(IndexChoice, names_the_checks_of_flann_where_they_are_unusual) {
     EXPECT_EQ(text(IndexKind::exact), "exact");
     EXPECT_EQ(text(IndexKind::flann), "flann");
     EXPECT_EQ(text(IndexChoice{IndexKind::flann, 64}), "flann with 64 checks");
+}
+
+TEST_P(EveryExactIndex, takes_up_each_window_with_the_nearest_of_those_that_were_there_in_its_turn) {
+    // Squared distances are differing bits; less than 3.35 of them match. 0 is there, so 0b111 matches it, until
+    // 0b1111, which becomes a feature, is nearer; 0b11 is as near to the one as to the other, and matches the older
+    // one.
+    Trace const known = trace_of({{0, 0.5f}});
+    Trace const batch = trace_of({{0b111, 0.5f},
+                                  {0b1111, 0.5f},
+                                  {0b111, 0.5f},
+                                  {0b11, 0.5f},
+                                  {0b1111, 0.5f},
+                                  {0b111000000, 0.5f},
+                                  {0b111110000, 0.5f},
+                                  {0b111000000, 0.5f}});
+    for (int const threads : {1, 2, 5}) {
+        auto const index = index_of(GetParam()(test::config_of(1)), known, 1);
+        EXPECT_EQ(index->take_up(windows_of(batch, 1), threads), (std::vector<int>{0, 1, 1, 0, 1, 0, 2, 2}));
+        EXPECT_EQ(index->size(), 3);
+        EXPECT_EQ(match(*index, windows_of(batch, 1)[6]), (Match{2, 0.0f}));
+    }
+}
+
+TEST(ExactIndex, keeps_windows_in_a_folder_and_answers_as_if_they_were_in_memory) {
+    Scratch const scratch;
+    KnowledgeConfig const config = test::config_of();
+    Stream rng{81, Purpose::test};
+    std::vector<Trace> traces;
+    for (int i = 0; i < 12; ++i) traces.push_back(test::lifelike_trace(rng, 2000));
+    auto const in_memory = make_exact_index(config), in_folder = make_exact_index(config, scratch.path());
+    for (Trace const& trace : traces) {
+        std::vector<Window> const windows = windows_of(trace, config.window_length);
+        ASSERT_EQ(in_folder->take_up(windows, 2), in_memory->take_up(windows, 2));
+        for (Window const& window : windows)
+            ASSERT_EQ(in_folder->search()->match(window), in_memory->search()->match(window));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+    WindowArrays const from_folder = in_folder->release(), from_memory = in_memory->release();
+    EXPECT_GT(from_memory.values.size(), 100u * 120u);
+    EXPECT_TRUE(std::ranges::equal(from_folder.values, from_memory.values));
+    EXPECT_TRUE(std::ranges::equal(from_folder.bits, from_memory.bits));
 }

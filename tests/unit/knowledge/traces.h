@@ -3,6 +3,7 @@
 #include <lore/collectball/channels.h>
 #include <lore/collectball/collectball.h>
 #include <lore/core/random.h>
+#include <lore/knowledge/index.h>
 #include <lore/knowledge/knowledge_base.h>
 
 #include <cstdint>
@@ -43,6 +44,15 @@ inline KnowledgeBase base_of(std::initializer_list<Step> features, std::vector<d
     std::vector<std::uint32_t> const counts(values.size(), count);
     return KnowledgeBase{
         config_of(1), std::move(provenance), {trace.channel_bits, trace.values, values, values, counts}};
+}
+
+/// Windows and what they are worth, each shown by one individual.
+inline KnowledgeBase base_of(KnowledgeConfig const& config, std::vector<Window> const& windows,
+                             std::vector<double> const& values) {
+    FeatureWindows features;
+    for (Window const& window : windows) features.add(config.channels, window);
+    std::vector<std::uint32_t> const counts(values.size(), 1);
+    return KnowledgeBase{config, {}, {features.bits, features.values, values, values, counts}};
 }
 
 /// A trace that looks like a robot's: lights come and go, wheels mostly at their stops, ranges drift. `phrases` short
