@@ -16,8 +16,9 @@
 // search has found: buckets are visited from the smallest to the largest, those of halves before those of blocks. The
 // more have been seen, the more bits must differ in a feature that has not (KeyedSearch): a match at a smaller distance
 // ends the search, and these bits leave less for the continuous channels. Bounds 1 and 3 shrink with the distance, too.
-// Most of a bucket is passed over by keys: bound 3 for sums over all steps, which fit into 8 bytes together with the
-// number of set bits.
+// Most of a bucket is passed over by keys (bound 3 and the number of set bits), many of them by groups; of the others,
+// the pattern is looked at, and if that does not rule them out, the codes (bound 4). Mostly one feature is left, and
+// its window is not even read, unless it may lie beyond the threshold or a new feature may be nearer.
 
 namespace lore {
 
