@@ -187,7 +187,7 @@ struct KeyedSearch {
                 __builtin_prefetch(view->least + first + group);
                 __builtin_prefetch(view->most + first + group);
             }
-        } else {
+        } else if (by_tables) {   // else they follow those that were read last, as the processor expects
             fetch_keys(bucket.start, bucket.count);
         }
         return true;

@@ -7,7 +7,6 @@
 #include <lore/knowledge/index.h>
 
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
