@@ -53,15 +53,6 @@ void write_durably(std::string const& temporary, BytePieces content, std::string
 
 }   // namespace
 
-void write_fully(int descriptor, std::span<std::byte const> content, std::string const& path) {
-    while (!content.empty()) {
-        ssize_t const written = ::write(descriptor, content.data(), content.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw file_error("write", path, errno);
-        content = content.subspan(static_cast<std::size_t>(written));
-    }
-}
-
 void sync_file(int descriptor, std::string const& path) {
     // EINVAL: a file system or a device that knows no fsync; nothing is lost by not calling it there.
     if (::fsync(descriptor) != 0 && errno != EINVAL) throw file_error("write", path, errno);

@@ -41,6 +41,15 @@ Error file_error(std::string_view verb, std::string const& path, int error_numbe
     return Error(fmt::format("cannot {} {}", verb, path), std::strerror(error_number), remedy_for(error_number));
 }
 
+void write_fully(int descriptor, std::span<std::byte const> content, std::string const& path) {
+    while (!content.empty()) {
+        ssize_t const written = ::write(descriptor, content.data(), content.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw file_error("write", path, errno);
+        content = content.subspan(static_cast<std::size_t>(written));
+    }
+}
+
 bool is_there(std::string const& path) {
     std::error_code failed;
     bool const there = fs::exists(path, failed);

@@ -16,26 +16,20 @@ constexpr std::size_t written_at_once = std::size_t{1} << 20;
 
 }   // namespace
 
-GrowingBytes::GrowingBytes(std::string folder) : folder_(std::move(folder)) {
-    std::string name = folder_ + "/.lore-tmp-XXXXXX";
+GrowingBytes::GrowingBytes(std::string const& folder) : path_("a file without a name in " + folder) {
+    std::string name = folder + "/.lore-tmp-XXXXXX";   // for a moment
     file_ = FileDescriptor{::mkostemp(name.data(), O_CLOEXEC)};
-    if (file_.get() < 0) throw file_error("write to", folder_, errno);
+    if (file_.get() < 0) throw file_error("make", path_, errno);
     ::unlink(name.c_str());
 }
 
 void GrowingBytes::add(std::span<std::byte const> bytes) {
     last_.insert(last_.end(), bytes.begin(), bytes.end());
-    if (!folder_.empty() && last_.size() >= written_at_once) write_last();
+    if (!in_memory() && last_.size() >= written_at_once) write_last();
 }
 
 void GrowingBytes::write_last() {
-    std::span<std::byte const> left{last_};
-    while (!left.empty()) {
-        ssize_t const done = ::write(file_.get(), left.data(), left.size());
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) throw file_error("write to", folder_, errno);
-        left = left.subspan(static_cast<std::size_t>(done));
-    }
+    write_fully(file_.get(), last_, path_);
     written_ += last_.size();
     last_.clear();
 }
@@ -45,14 +39,14 @@ std::byte const* GrowingBytes::read(std::uint64_t at, std::size_t size, std::byt
     for (std::size_t read = 0; read < size;) {
         ssize_t const done = ::pread(file_.get(), copy + read, size - read, static_cast<off_t>(at + read));
         if (done < 0 && errno == EINTR) continue;
-        if (done <= 0) throw file_error("read what was written to", folder_, done < 0 ? errno : EIO);
+        if (done <= 0) throw file_error("read", path_, done < 0 ? errno : EIO);
         read += static_cast<std::size_t>(done);
     }
     return copy;
 }
 
 GrowingBytes::Whole GrowingBytes::release() {
-    if (folder_.empty()) {
+    if (in_memory()) {
         auto const kept = std::make_shared<std::vector<std::byte> const>(std::move(last_));
         return {*kept, kept};
     }
@@ -60,7 +54,7 @@ GrowingBytes::Whole GrowingBytes::release() {
     if (written_ == 0) return {};
     auto const length = static_cast<std::size_t>(written_);
     void* const mapped = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, file_.get(), 0);
-    if (mapped == MAP_FAILED) throw file_error("map what was written to", folder_, errno);
+    if (mapped == MAP_FAILED) throw file_error("map", path_, errno);
     std::shared_ptr<void const> const kept{mapped, [length](void* place) { ::munmap(place, length); }};
     return {{static_cast<std::byte const*>(mapped), length}, kept};
 }

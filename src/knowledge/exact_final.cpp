@@ -15,8 +15,9 @@
 // run keep repeating the same patterns (85 of 100 in an evolved population).
 //
 // Where bits tell features not or hardly apart, as in a world whose channels are continuous, that does not help. Then
-// all keys are read from the start to the end, which takes a nanosecond each or less. They lie in falling order of
-// worth, so that a question for features above some worth reads the first of them alone.
+// the ranges of all groups of keys are read from the start to the end, and the keys of those that are near. Shares of
+// keys lie in falling order of worth, so that a question for features above some worth reads the first of them alone;
+// within a share, neighbors are alike.
 
 namespace lore {
 
@@ -44,7 +45,9 @@ public:
     /// Whether it has ranked keys instead of tables.
     bool ranked() const { return !fixed_; }
     /// Precondition: ranked.
-    KeyedView keyed() const { return {shape_, {}, ranked_.data(), nullptr, nullptr, patterns_[0], codes_.data()}; }
+    KeyedView keyed() const { return exact::keyed_view(shape_, {}, ranked_, patterns_, codes_); }
+    /// In falling order. Precondition: ranked.
+    std::span<double const> falling_worth() const { return falling_worth_; }
     /// Records that a search looks at, at most. Precondition: not ranked.
     std::size_t most_visits() const { return fixed_->most_visits(); }
     /// Precondition: not ranked.
@@ -63,7 +66,8 @@ private:
     std::vector<std::int32_t> limits_;
     exact::Kernel kernel_;
     std::optional<exact::FixedTables> fixed_;   ///< or what follows
-    std::vector<Key> ranked_;
+    exact::GroupedKeys ranked_;
+    std::vector<double> falling_worth_;
     exact::Records patterns_;
     PagedArray<std::uint8_t> codes_;
     float const* values_;   ///< of the base: [feature][step][continuous channel]
@@ -96,14 +100,24 @@ void ExactFinalIndex::hash(KnowledgeBase const& base) {
 void ExactFinalIndex::rank(KnowledgeBase const& base) {
     auto const bytes = static_cast<std::size_t>(shape_.code_size);
     codes_.resize(static_cast<std::size_t>(base.size()) * bytes);
-    ranked_.reserve(static_cast<std::size_t>(base.size()));
+    std::vector<Key> keys;
+    keys.reserve(static_cast<std::size_t>(base.size()));
     for (int feature = 0; feature < base.size(); ++feature) {
         Window const window = base.window(feature);
-        ranked_.push_back(kernel_.describe(shape_, window.bits.data(), window.values.data(), patterns_.add(),
-                                           codes_.data() + static_cast<std::size_t>(feature) * bytes));
-        ranked_.back().feature = feature;
+        keys.push_back(kernel_.describe(shape_, window.bits.data(), window.values.data(), patterns_.add(),
+                                        codes_.data() + static_cast<std::size_t>(feature) * bytes));
+        keys.back().feature = feature;
     }
-    ranked_ = exact::ranked_keys(std::move(ranked_), worth_);
+    auto const worth_of = [&](Key const& key) { return worth_[static_cast<std::size_t>(key.feature)]; };
+    std::stable_sort(keys.begin(), keys.end(), [&](Key const& a, Key const& b) { return worth_of(a) > worth_of(b); });
+    for (Key const& key : keys) falling_worth_.push_back(worth_of(key));
+    ranked_.resize(keys.size());
+    for (std::size_t first = 0; first < keys.size(); first += exact::keys_at_once) {
+        auto const share =
+            std::span{keys}.subspan(first, std::min<std::size_t>(exact::keys_at_once, keys.size() - first));
+        exact::GroupedKeys::order(share);
+        for (std::size_t i = 0; i < share.size(); ++i) ranked_.put(first + i, share[i]);
+    }
 }
 
 class ExactFinalSearch : public FeatureSearch {
@@ -144,13 +158,12 @@ private:
         return index_.worth()[static_cast<std::size_t>(candidate.digest.feature)];
     }
 
-    /// How many of a ranked set, from the first, are worth more.
+    /// How many of a ranked set, from the first, are in shares of which some are worth more.
     std::size_t worth_more(double least) const {
-        std::span<Key const> const keys{index_.keyed().keys, index_.worth().size()};
-        auto const end = std::partition_point(keys.begin(), keys.end(), [&](Key const& key) {
-            return index_.worth()[static_cast<std::size_t>(key.feature)] > least;
-        });
-        return static_cast<std::size_t>(end - keys.begin());
+        std::span<double const> const worth = index_.falling_worth();
+        auto const end = std::partition_point(worth.begin(), worth.end(), [&](double one) { return one > least; });
+        auto const more = static_cast<std::size_t>(end - worth.begin());
+        return std::min((more + exact::keys_at_once - 1) / exact::keys_at_once * exact::keys_at_once, worth.size());
     }
 
     /// The nearest of a ranked set, unless none of the first `first` is a match.

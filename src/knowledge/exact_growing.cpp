@@ -37,14 +37,14 @@ struct Worker {
 class ExactGrowingIndex : public GrowingIndex {
 public:
     ExactGrowingIndex(KnowledgeConfig const& config, std::string const& folder)
-        : shape_(exact::shape_of(config)), kernel_(exact::kernel_of(active_isa())), set_(new_set()),
-          windows_(config, folder) {}
+        : shape_(exact::shape_of(config)), kernel_(exact::kernel_of(active_isa())), set_(new_set()), described_(shape_),
+          windows_(config, folder) {
+        described_.resize(1);
+    }
 
     void add(Window const& window) override {
-        exact::Descriptions described{shape_};
-        described.resize(1);
-        described.describe(0, kernel_, window);
-        add(described[0], window);
+        described_.describe(0, kernel_, window);
+        add(described_[0], window);
     }
     std::vector<int> take_up(std::span<Window const>, int threads) override;
     int size() const override { return static_cast<int>(set_.size()); }
@@ -66,6 +66,7 @@ private:
     exact::Shape shape_;
     exact::Kernel kernel_;
     exact::KeyedSet set_;
+    exact::Descriptions described_;   ///< of the window that is added
     WindowStore windows_;
     std::vector<Worker> workers_;   ///< of take_up, one a thread
 };
@@ -125,7 +126,10 @@ public:
         asked_.resize(windows.size());
     }
 
-    std::vector<int> numbers() &&;
+    /// Finds out what follows; once.
+    void match();
+    /// Of the features of all windows.
+    std::vector<int> const& numbers() const { return numbers_; }
     /// The windows that became features, in order.
     std::vector<std::size_t> const& origins() const { return origins_; }
     Question described(std::size_t window) const { return asked_[window]; }
@@ -163,7 +167,7 @@ private:
     std::vector<std::size_t> origins_;   ///< [fresh feature]
 };
 
-std::vector<int> Batch::numbers() && {
+void Batch::match() {
     share_out([&](Worker&, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) asked_.describe(i, index_.kernel(), windows_[i]);
     });
@@ -177,7 +181,6 @@ std::vector<int> Batch::numbers() && {
         for (std::size_t i = first; i < last; ++i)
             if (known_[i].found()) match_among_fresh(worker, i);
     });
-    return std::move(numbers_);
 }
 
 constexpr int ranks = 4;
@@ -270,11 +273,12 @@ Match Batch::nearest_fresh(Worker& worker, std::size_t window, float bound, std:
 }
 
 std::vector<int> ExactGrowingIndex::take_up(std::span<Window const> windows, int threads) {
+    if (threads == 1) return GrowingIndex::take_up(windows, threads);   // nothing to share
     workers_.resize(static_cast<std::size_t>(threads));
     Batch batch{*this, windows, workers_};
-    std::vector<int> numbers = std::move(batch).numbers();
+    batch.match();
     for (std::size_t const window : batch.origins()) add(batch.described(window), windows[window]);
-    return numbers;
+    return batch.numbers();
 }
 
 }   // namespace

@@ -90,6 +90,21 @@ LORE_INLINE KeyedSearch begun(KeyedView const& view, bool by_tables, Search cons
     return search;
 }
 
+/// Bucket after bucket, until no search has one that is worth it. Changes the order of `going`.
+LORE_INLINE void look_through_buckets(KeyedSearch** going, int count) {
+    while (count > 0) {
+        int left = 0;
+        for (int i = 0; i < count; ++i)
+            if (going[i]->choose_bucket()) going[left++] = going[i];
+        count = left;
+        for (int i = 0; i < count; ++i) going[i]->look_at_groups();
+        for (int i = 0; i < count; ++i) going[i]->look_at_keys();
+        for (int i = 0; i < count; ++i) going[i]->compare_nearest_key();
+        for (int i = 0; i < count; ++i) going[i]->look_at_patterns();
+        for (int i = 0; i < count; ++i) going[i]->compare_others();
+    }
+}
+
 template <int together>
 LORE_INLINE void search_together(KeyedView const& view, Search* asked, int count) {
     KeyedSearch searches[together];
@@ -101,17 +116,7 @@ LORE_INLINE void search_together(KeyedView const& view, Search* asked, int count
     }
     for (int i = 0; i < count; ++i) going[i]->order_visits();
     for (int i = 0; i < count; ++i) going[i]->compare_first();
-    for (int left = count; left > 0;) {
-        int const before = left;
-        left = 0;
-        for (int i = 0; i < before; ++i)
-            if (going[i]->choose_bucket()) going[left++] = going[i];
-        for (int i = 0; i < left; ++i) going[i]->look_at_groups();
-        for (int i = 0; i < left; ++i) going[i]->look_at_keys();
-        for (int i = 0; i < left; ++i) going[i]->compare_nearest_key();
-        for (int i = 0; i < left; ++i) going[i]->look_at_patterns();
-        for (int i = 0; i < left; ++i) going[i]->compare_others();
-    }
+    look_through_buckets(going, count);
     for (int i = 0; i < count; ++i) {
         searches[i].remember();
         asked[i].finalists = searches[i].remaining();
@@ -124,15 +129,9 @@ void closest(KeyedView const& view, Search* asked, int count) {
 }
 
 void closest_among(KeyedView const& view, Search& asked, Bucket places) {
-    KeyedSearch search = begun(view, false, asked);
+    KeyedSearch search = begun(view, false, asked), *going = &search;
     search.rest = places;
-    while (search.choose_bucket()) {
-        search.look_at_groups();
-        search.look_at_keys();
-        search.compare_nearest_key();
-        search.look_at_patterns();
-        search.compare_others();
-    }
+    look_through_buckets(&going, 1);
     asked.finalists = search.remaining();
 }
 

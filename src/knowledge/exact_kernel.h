@@ -90,8 +90,11 @@ struct Tables {
     int slot_bits;
 };
 
-/// A set of features by their keys, as the kernel reads it: one that still grows, or a final one in falling order of
-/// worth (ranked_keys). A bucket's places are those of `keys`.
+/// Keys of one bucket that are looked through before what was found among them is compared, where one bucket holds all.
+inline constexpr std::uint32_t keys_at_once = 2048;
+
+/// A set of features by their keys, as the kernel reads it: one that still grows, or a final one whose shares of
+/// keys_at_once are in falling order of worth. A bucket's places are those of `keys`.
 struct KeyedView {
     Shape shape;
     Tables tables;
@@ -209,7 +212,7 @@ struct Kernel {
     /// them if any of the wanted ones is not beyond the bound. At most searches_together; each has memory of its own,
     /// but for Scratch::recent.
     void (*closest)(KeyedView const&, Search*, int count);
-    /// The same of one among some places of a ranked set.
+    /// The same of one among some places of a ranked set, from the first of a share on.
     void (*closest_among)(KeyedView const&, Search&, Bucket places);
     /// What the continuous values of two windows add to their squared distance.
     float (*distance)(Shape const&, float const* a, float const* b);

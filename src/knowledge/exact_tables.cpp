@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <utility>
 
 namespace lore::exact {
@@ -19,6 +18,16 @@ std::size_t bucket_of(int table, std::uint64_t const* pattern, std::vector<std::
            hash_slot(pattern, masks.data() + table * words, words, slot_bits);
 }
 
+/// Makes a range of keys include one more.
+void widen(Key& least, Key& most, Key const& key) {
+    for (int i = 0; i < key_size; ++i) {
+        least.sums[i] = std::min(least.sums[i], key.sums[i]);
+        most.sums[i] = std::max(most.sums[i], key.sums[i]);
+    }
+    least.ones = std::min(least.ones, key.ones);
+    most.ones = std::max(most.ones, key.ones);
+}
+
 int words_of_a_mask(std::vector<std::uint64_t> const& masks, int tables) {
     return static_cast<int>(masks.size()) / tables;
 }
@@ -29,6 +38,40 @@ std::uint64_t* Records::add() {
     ++count_;
     words_.resize(count_ * size_);
     return words_.data() + words_.size() - size_;
+}
+
+void GroupedKeys::resize(std::size_t places) {
+    keys_.resize(places);
+    least_.resize((places + key_group - 1) / key_group);
+    most_.resize(least_.size());
+}
+
+void GroupedKeys::put(std::size_t place, Key const& key) {
+    keys_[place] = key;
+    std::size_t const group = place / key_group;
+    if (place % key_group == 0) {
+        least_[group] = most_[group] = key;
+        least_[group].feature = static_cast<std::int32_t>(group);
+    } else {
+        widen(least_[group], most_[group], key);
+    }
+}
+
+/// Halves them again and again by the number that differs most.
+void GroupedKeys::order(std::span<Key> keys) {
+    if (keys.size() <= key_group) return;
+    Key least = keys[0], most = keys[0];
+    for (Key const& key : keys) widen(least, most, key);
+    auto const number = [](Key const& key, int which) { return which < key_size ? key.sums[which] : key.ones; };
+    auto const width = [&](int which) { return number(most, which) - number(least, which); };
+    int widest = 0;
+    for (int which = 1; which <= key_size; ++which)
+        if (width(which) > width(widest)) widest = which;
+    std::size_t const half = (keys.size() / key_group + 1) / 2 * key_group;
+    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),
+                     [&](Key const& a, Key const& b) { return number(a, widest) < number(b, widest); });
+    order(keys.first(half));
+    order(keys.subspan(half));
 }
 
 GrowingTables::GrowingTables(int tables, std::vector<std::uint64_t> masks)
@@ -49,58 +92,19 @@ void GrowingTables::insert(int table, Records const& patterns, Key const& key) {
         std::span<Key> const moving = keys_of(bucket);
         std::uint32_t const before = std::exchange(bucket.start, take_room(std::max(1u, bucket.count * 2)));
         if (bucket.count > 0) give_back(before, bucket.count);
-        group(moving);
+        GroupedKeys::order(moving);
         std::uint32_t place = bucket.start;
-        for (Key const& moved : moving) put(place++, moved);
+        for (Key const& moved : moving) keys_.put(place++, moved);
     }
-    put(bucket.start + bucket.count, key);
+    keys_.put(bucket.start + bucket.count, key);
     ++bucket.count;
     largest_ = std::max(largest_, std::size_t{bucket.count});
 }
 
-void GrowingTables::put(std::uint32_t place, Key const& key) {
-    keys_[place] = key;
-    Key &least = least_[place / key_group], &most = most_[place / key_group];
-    if (place % key_group == 0) {
-        least = most = key;
-        least.feature = static_cast<std::int32_t>(place / key_group);
-        return;
-    }
-    for (int i = 0; i < key_size; ++i) {
-        least.sums[i] = std::min(least.sums[i], key.sums[i]);
-        most.sums[i] = std::max(most.sums[i], key.sums[i]);
-    }
-    least.ones = std::min(least.ones, key.ones);
-    most.ones = std::max(most.ones, key.ones);
-}
-
 std::span<Key> GrowingTables::keys_of(Bucket bucket) {
-    moving_.assign(keys_.data() + bucket.start, keys_.data() + bucket.start + bucket.count);
+    Key const* const first = keys_.keys() + bucket.start;
+    moving_.assign(first, first + bucket.count);
     return moving_;
-}
-
-/// Halves them again and again by the number that differs most.
-void GrowingTables::group(std::span<Key> keys) {
-    if (keys.size() <= key_group) return;
-    auto const number = [](Key const& key, int which) { return which < key_size ? key.sums[which] : key.ones; };
-    Key least = keys[0], most = keys[0];
-    for (Key const& key : keys) {
-        for (int i = 0; i < key_size; ++i) {
-            least.sums[i] = std::min(least.sums[i], key.sums[i]);
-            most.sums[i] = std::max(most.sums[i], key.sums[i]);
-        }
-        least.ones = std::min(least.ones, key.ones);
-        most.ones = std::max(most.ones, key.ones);
-    }
-    int widest = 0;
-    auto const width = [&](int which) { return number(most, which) - number(least, which); };
-    for (int which = 1; which <= key_size; ++which)
-        if (width(which) > width(widest)) widest = which;
-    std::size_t const half = (keys.size() / key_group + 1) / 2 * key_group;
-    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),
-                     [&](Key const& a, Key const& b) { return number(a, widest) < number(b, widest); });
-    group(keys.first(half));
-    group(keys.subspan(half));
 }
 
 std::uint32_t GrowingTables::take_room(std::uint32_t places) {
@@ -117,8 +121,6 @@ std::uint32_t GrowingTables::take_room(std::uint32_t places) {
     }
     auto const start = static_cast<std::uint32_t>(keys_.size());
     keys_.resize(keys_.size() + places);
-    least_.resize(keys_.size() / key_group);
-    most_.resize(keys_.size() / key_group);
     return start;
 }
 
@@ -156,7 +158,7 @@ std::array<Bucket, 2> GrowingTables::split(int table, Bucket bucket, Records con
     std::uint32_t place = halves[0].start;
     for (auto key = all.begin(); key != all.end(); ++key) {
         if (key == moving) place = halves[1].start;
-        put(place++, *key);
+        keys_.put(place++, *key);
     }
     return halves;
 }
@@ -190,12 +192,6 @@ double FixedTables::usual_visits() const {
     double squares = 0;
     for (Bucket const& bucket : buckets_) squares += static_cast<double>(bucket.count) * bucket.count;
     return features_ == 0 ? 0 : squares / static_cast<double>(features_);
-}
-
-std::vector<Key> ranked_keys(std::vector<Key> keys, std::span<double const> worth) {
-    auto const worth_of = [&](Key const& key) { return worth[static_cast<std::size_t>(key.feature)]; };
-    std::stable_sort(keys.begin(), keys.end(), [&](Key const& a, Key const& b) { return worth_of(a) > worth_of(b); });
-    return keys;
 }
 
 }   // namespace lore::exact

@@ -27,9 +27,25 @@ private:
     PagedArray<std::uint64_t> words_;
 };
 
+/// Keys, and what range those of each group have: KeyedView::keys, ::least and ::most.
+class GroupedKeys {
+public:
+    std::size_t size() const { return keys_.size(); }
+    void resize(std::size_t places);
+    /// Those of a group in the order of their places.
+    void put(std::size_t place, Key const&);
+    /// Puts keys into an order in which neighbors are alike, so that most groups of them are ruled out by their range.
+    static void order(std::span<Key>);
+    Key const* keys() const { return keys_.data(); }
+    Key const* least() const { return least_.data(); }
+    Key const* most() const { return most_.data(); }
+
+private:
+    PagedArray<Key> keys_, least_, most_;   ///< the feature of a least one is its group's number
+};
+
 /// Hash tables of a set that grows: buckets hold keys, and what else is needed of the few that these do not rule out is
-/// fetched by their feature. Where a bucket doubles, its keys are put into an order in which neighbors are alike, so
-/// that most groups of neighbors are ruled out by their range.
+/// fetched by their feature. Where a bucket doubles, its keys are put into order.
 class GrowingTables {
 public:
     GrowingTables(int tables, std::vector<std::uint64_t> masks);
@@ -37,9 +53,7 @@ public:
     /// The last of the patterns, which `key` belongs to.
     void add(Records const& patterns, Key);
     Tables view() const { return {masks_.data(), buckets_.data(), slot_bits_}; }
-    Key const* keys() const { return keys_.data(); }
-    Key const* least() const { return least_.data(); }
-    Key const* most() const { return most_.data(); }
+    GroupedKeys const& keys() const { return keys_; }
     std::size_t largest_bucket() const { return largest_; }
 
 private:
@@ -49,18 +63,15 @@ private:
     void give_back(std::uint32_t start, std::uint32_t places);
     void double_slots(Records const&);
     std::array<Bucket, 2> split(int table, Bucket, Records const&);
-    void put(std::uint32_t place, Key const&);
     /// A copy of a bucket's keys, valid until the next call.
     std::span<Key> keys_of(Bucket);
-    static void group(std::span<Key>);
 
     int tables_, words_;
     std::vector<std::uint64_t> masks_;
     int slot_bits_ = 8;
     PagedArray<Bucket> buckets_;                        ///< with room for as many places as the next power of two
-    PagedArray<Key> keys_;                              ///< [place]
+    GroupedKeys keys_;                                  ///< [place]
     std::array<std::vector<std::uint32_t>, 32> free_;   ///< room that buckets have left behind, by log2 of its places
-    PagedArray<Key> least_, most_;   ///< KeyedView::least and ::most; a group's number is the feature of its least
     std::size_t largest_ = 0;
     std::vector<Key> moving_;   // scratch
 };
@@ -85,8 +96,5 @@ private:
     std::vector<std::uint64_t> records_;   ///< [place][record_size]
     std::size_t most_visits_ = 0;          ///< the largest buckets of all tables together
 };
-
-/// The keys of a final set whose bits tell its features not apart, in falling order of worth, then of numbers.
-std::vector<Key> ranked_keys(std::vector<Key>, std::span<double const> worth);
 
 }   // namespace lore::exact

@@ -53,13 +53,7 @@ std::unique_ptr<FeatureSearch> ScanIndex::search() const { return std::make_uniq
 }   // namespace
 
 void FeatureWindows::add(Channels const& channels, Window const& window) {
-    std::size_t const first = bits.size();
-    bits.insert(bits.end(), window.bits.begin(), window.bits.end());
-    auto const words = static_cast<std::size_t>(channels.words());
-    for (std::size_t word = 0; word < words; ++word) {
-        std::uint16_t const mask = binary_mask(channels, static_cast<int>(word));
-        for (std::size_t i = first + word; i < bits.size(); i += words) bits[i] &= mask;
-    }
+    append_binary_bits(channels, window, bits);
     values.insert(values.end(), window.values.begin(), window.values.end());
 }
 
@@ -78,9 +72,9 @@ WindowArrays FeatureWindows::release() {
 std::vector<int> GrowingIndex::take_up(std::span<Window const> windows, int) {
     std::vector<int> numbers;
     numbers.reserve(windows.size());
-    auto const asked = search();
+    if (!search_) search_ = search();
     for (Window const& window : windows) {
-        Match const match = asked->match(window);
+        Match const match = search_->match(window);
         numbers.push_back(match.found() ? match.feature : size());
         if (!match.found()) add(window);
     }

@@ -9,8 +9,6 @@ namespace lore::exact::LORE_ISA_NAMESPACE {
 
 namespace {
 
-/// Keys of one bucket that are looked through before what was found among them is compared, where one bucket holds all.
-constexpr std::uint32_t keys_at_once = 2048;
 /// Groups of keys that are fetched before they are looked at: more would drive each other out of the nearest cache.
 constexpr int fetched_at_most = 32;
 
@@ -135,7 +133,7 @@ struct KeyedSearch {
         return shares;
     }
 
-    LORE_INLINE bool has_groups() const { return view->least != nullptr && bucket.count > 2 * key_group; }
+    LORE_INLINE bool has_groups() const { return bucket.count > 2 * key_group; }
     /// How far apart the keys of a feature may be that was not seen yet.
     LORE_INLINE std::int32_t largest() const { return shape().key_bound.largest(left(unseen)); }
 
@@ -187,7 +185,7 @@ struct KeyedSearch {
                 __builtin_prefetch(view->least + first + group);
                 __builtin_prefetch(view->most + first + group);
             }
-        } else if (by_tables) {   // else they follow those that were read last, as the processor expects
+        } else {
             fetch_keys(bucket.start, bucket.count);
         }
         return true;

@@ -30,6 +30,11 @@ private:
     PagedArray<Key> keys_;
 };
 
+inline KeyedView keyed_view(Shape const& shape, Tables const& tables, GroupedKeys const& keys, Records const& patterns,
+                            PagedArray<std::uint8_t> const& codes) {
+    return {shape, tables, keys.keys(), keys.least(), keys.most(), patterns[0], codes.data()};
+}
+
 /// A set that grows: all but the values of its windows.
 class KeyedSet {
 public:
@@ -40,9 +45,7 @@ public:
     void add(Question const&);
     std::size_t size() const { return patterns_.count(); }
     std::size_t largest_bucket() const { return tables_.largest_bucket(); }
-    KeyedView view() const {
-        return {*shape_, tables_.view(), tables_.keys(), tables_.least(), tables_.most(), patterns_[0], codes_.data()};
-    }
+    KeyedView view() const { return keyed_view(*shape_, tables_.view(), tables_.keys(), patterns_, codes_); }
 
 private:
     Shape const* shape_;

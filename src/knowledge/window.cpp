@@ -29,6 +29,16 @@ std::uint16_t binary_mask(Channels const& channels, int word) {
     return static_cast<std::uint16_t>((1u << bits) - 1);
 }
 
+void append_binary_bits(Channels const& channels, Window const& window, std::vector<std::uint16_t>& to) {
+    std::size_t const first = to.size();
+    to.insert(to.end(), window.bits.begin(), window.bits.end());
+    auto const words = static_cast<std::size_t>(channels.words());
+    for (std::size_t word = 0; word < words; ++word) {
+        std::uint16_t const mask = binary_mask(channels, static_cast<int>(word));
+        for (std::size_t i = first + word; i < to.size(); i += words) to[i] &= mask;
+    }
+}
+
 std::vector<float> channels_at(Channels const& channels, Window const& window, std::size_t step) {
     std::vector<float> values(static_cast<std::size_t>(channels.count()));
     std::uint16_t const* const words = window.bits.data() + step * static_cast<std::size_t>(channels.words());

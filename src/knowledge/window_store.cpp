@@ -19,9 +19,9 @@ WindowStore::WindowStore(KnowledgeConfig const& config, std::string const& folde
       bits_(bytes_in(folder)), values_(bytes_in(folder)) {}
 
 void WindowStore::add(Window const& window) {
-    FeatureWindows kept;
-    kept.add(channels_, window);
-    bits_.add(std::as_bytes(std::span{kept.bits}));
+    std::vector<std::uint16_t> bits;
+    append_binary_bits(channels_, window, bits);
+    bits_.add(std::as_bytes(std::span{bits}));
     values_.add(std::as_bytes(window.values));
 }
 

@@ -2,6 +2,8 @@
 
 #include <lore/core/error.h>
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -35,6 +37,9 @@ private:
 
 /// An Error from errno: "cannot `verb` `path` (reason). remedy".
 Error file_error(std::string_view verb, std::string const& path, int error_number);
+
+/// All of it, whatever the kernel takes at a time. Throws file_error("write", path).
+void write_fully(int descriptor, std::span<std::byte const> content, std::string const& path);
 
 /// Whether a file, a directory or anything else has this name. Throws Error where that cannot be told, such as without
 /// permission to look.

@@ -18,7 +18,7 @@ public:
     /// In memory.
     GrowingBytes() = default;
     /// In a file in this folder. Throws Error.
-    explicit GrowingBytes(std::string folder);
+    explicit GrowingBytes(std::string const& folder);
 
     /// Throws Error: a full disk.
     void add(std::span<std::byte const>);
@@ -36,8 +36,9 @@ public:
 
 private:
     void write_last();
+    bool in_memory() const { return file_.get() < 0; }
 
-    std::string folder_;            ///< as errors call it; empty: in memory
+    std::string path_;              ///< what errors call the file
     FileDescriptor file_;           ///< if not in memory
     std::uint64_t written_ = 0;     ///< to the file
     std::vector<std::byte> last_;   ///< those that were not

@@ -89,6 +89,9 @@ public:
     virtual std::vector<int> take_up(std::span<Window const>, int threads);
     /// Hands over the windows of all features; nothing but destruction may follow.
     virtual WindowArrays release() = 0;
+
+private:
+    std::unique_ptr<FeatureSearch> search_;   ///< of take_up, one window after the other
 };
 
 /// The definition: every feature is compared.

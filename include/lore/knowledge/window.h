@@ -37,6 +37,9 @@ struct Window {
 /// The bits of binary channels in word number `word` of a step; the others belong to the Hamming descriptor.
 std::uint16_t binary_mask(Channels const&, int word);
 
+/// Adds a window's bits, those of binary channels alone.
+void append_binary_bits(Channels const&, Window const&, std::vector<std::uint16_t>& to);
+
 /// All channels of one step, in their order.
 std::vector<float> channels_at(Channels const&, Window const&, std::size_t step);
 

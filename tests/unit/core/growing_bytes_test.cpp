@@ -86,7 +86,8 @@ TEST(GrowingBytes, say_where_they_cannot_be_written) {
         GrowingBytes{"/no/such/folder"};
         FAIL() << "a folder that is not there was taken";
     } catch (Error const& error) {
-        EXPECT_THAT(error.what(), HasSubstr("cannot write to /no/such/folder (No such file or directory)"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("cannot make a file without a name in /no/such/folder (No such file or directory)"));
     }
     Scratch const scratch;
     GrowingBytes bytes{scratch.path()};
@@ -101,5 +102,5 @@ TEST(GrowingBytes, say_where_they_cannot_be_written) {
     } catch (Error const& error) { what = error.what(); }
     ::setrlimit(RLIMIT_FSIZE, &former);
     std::signal(SIGXFSZ, former_action);
-    EXPECT_THAT(what, HasSubstr("cannot write to " + scratch.path() + " (File too large)"));
+    EXPECT_THAT(what, HasSubstr("cannot write a file without a name in " + scratch.path() + " (File too large)"));
 }

@@ -32,7 +32,7 @@ void expect_all(exact::GrowingTables const& tables, int count, exact::Records co
             largest = std::max(largest, std::size_t{bucket.count});
             if (bucket.count > exact::key_group) { ASSERT_EQ(bucket.start % exact::key_group, 0u); }
             for (std::uint32_t place = bucket.start; place < bucket.start + bucket.count; ++place) {
-                exact::Key const& key = tables.keys()[place];
+                exact::Key const& key = tables.keys().keys()[place];
                 auto const number = static_cast<std::size_t>(key.feature);
                 ASSERT_LT(number, records.count());
                 ++seen[number];
@@ -40,8 +40,8 @@ void expect_all(exact::GrowingTables const& tables, int count, exact::Records co
                 ASSERT_TRUE(lies_between(key, keys[number], keys[number]));
                 if (bucket.count > exact::key_group) {
                     std::uint32_t const group = place / exact::key_group;
-                    ASSERT_EQ(tables.least()[group].feature, static_cast<std::int32_t>(group));
-                    ASSERT_TRUE(lies_between(key, tables.least()[group], tables.most()[group]));
+                    ASSERT_EQ(tables.keys().least()[group].feature, static_cast<std::int32_t>(group));
+                    ASSERT_TRUE(lies_between(key, tables.keys().least()[group], tables.keys().most()[group]));
                 }
             }
         }
@@ -86,7 +86,7 @@ TEST(GrowingTables, put_keys_that_are_alike_into_one_group_where_a_bucket_double
     std::uint64_t const pattern = 1;
     std::uint32_t const first = view.buckets[exact::hash_slot(&pattern, view.masks, 1, view.slot_bits)].start / 16;
     for (std::uint32_t group = first; group < first + 4; ++group)
-        EXPECT_EQ(tables.least()[group].sums[0], tables.most()[group].sums[0]);
+        EXPECT_EQ(tables.keys().least()[group].sums[0], tables.keys().most()[group].sums[0]);
 }
 
 TEST(FixedTables, know_how_many_records_the_buckets_of_a_pattern_hold_at_most) {
