@@ -120,6 +120,8 @@ private:
         ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
         ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
         ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
+        // Launchers that end remove the folder that others at once are about to use (docs/design/reliability.md).
+        ::setenv("OMPI_MCA_orte_tmpdir_base", (out_ + ".session").c_str(), 1);
         std::vector<char*> arguments;
         for (std::string& word : words) {
             std::size_t const equals = word.find('=');

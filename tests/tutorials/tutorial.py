@@ -131,7 +131,9 @@ def environment(prefix, scratch):
     own = {"PATH": ":".join(search), "HOME": str(scratch), "LC_ALL": "C.UTF-8",
            "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
            "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-           "OMPI_MCA_hwloc_base_binding_policy": "none"}
+           "OMPI_MCA_hwloc_base_binding_policy": "none",
+           # launchers of other tests, ending, would remove the folder that this one's are about to use
+           "OMPI_MCA_orte_tmpdir_base": f"{scratch}/.session"}
     if prefix != "/usr":
         own |= {"C_INCLUDE_PATH": f"{prefix}/include", "CPLUS_INCLUDE_PATH": f"{prefix}/include"}
     return {**os.environ, **own}
