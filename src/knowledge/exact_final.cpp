@@ -45,7 +45,7 @@ public:
     /// Whether it has ranked keys instead of tables.
     bool ranked() const { return !fixed_; }
     /// Precondition: ranked.
-    KeyedView keyed() const { return exact::keyed_view(shape_, {}, ranked_, patterns_, codes_); }
+    KeyedView keyed() const { return {shape_, &ranked_view_, patterns_[0], codes_.data()}; }
     /// In falling order. Precondition: ranked.
     std::span<double const> falling_worth() const { return falling_worth_; }
     /// Records that a search looks at, at most. Precondition: not ranked.
@@ -67,6 +67,7 @@ private:
     exact::Kernel kernel_;
     std::optional<exact::FixedTables> fixed_;   ///< or what follows
     exact::GroupedKeys ranked_;
+    exact::KeyedTable ranked_view_{};
     std::vector<double> falling_worth_;
     exact::Records patterns_;
     PagedArray<std::uint8_t> codes_;
@@ -78,7 +79,7 @@ ExactFinalIndex::ExactFinalIndex(KnowledgeBase const& base)
     : shape_(exact::shape_of(base.config())),
       floats_(static_cast<std::size_t>(shape_.window_length) * static_cast<std::size_t>(shape_.continuous)),
       masks_(exact::masks_of(shape_)), limits_(exact::limits_of(shape_)), kernel_(exact::kernel_of(active_isa())),
-      patterns_(shape_.words), values_(base.parts().windows.data()), worth_(base.values()) {
+      patterns_(exact::pattern_room(shape_.words)), values_(base.parts().windows.data()), worth_(base.values()) {
     if (shape_.hashes) hash(base);
     if (!fixed_) rank(base);
 }
@@ -116,8 +117,9 @@ void ExactFinalIndex::rank(KnowledgeBase const& base) {
         auto const share =
             std::span{keys}.subspan(first, std::min<std::size_t>(exact::keys_at_once, keys.size() - first));
         exact::GroupedKeys::order(share);
-        for (std::size_t i = 0; i < share.size(); ++i) ranked_.put(first + i, share[i]);
+        ranked_.put(first, share);
     }
+    ranked_view_ = ranked_.view();
 }
 
 class ExactFinalSearch : public FeatureSearch {

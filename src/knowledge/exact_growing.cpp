@@ -37,14 +37,15 @@ struct Worker {
 class ExactGrowingIndex : public GrowingIndex {
 public:
     ExactGrowingIndex(KnowledgeConfig const& config, std::string const& folder)
-        : shape_(exact::shape_of(config)), kernel_(exact::kernel_of(active_isa())), set_(new_set()), described_(shape_),
+        : shape_(exact::shape_of(config)), kernel_(exact::kernel_of(active_isa())), set_(shape_), described_(shape_),
           windows_(config, folder) {
         described_.resize(1);
     }
 
     void add(Window const& window) override {
         described_.describe(0, kernel_, window);
-        add(described_[0], window);
+        set_.add(described_[0]);
+        windows_.add(window);
     }
     std::vector<int> take_up(std::span<Window const>, int threads) override;
     int size() const override { return static_cast<int>(set_.size()); }
@@ -55,18 +56,12 @@ public:
     exact::Kernel const& kernel() const { return kernel_; }
     exact::KeyedSet const& set() const { return set_; }
     WindowStore const& windows() const { return windows_; }
-    exact::KeyedSet new_set() const { return {shape_, exact::growing_masks_of(shape_)}; }
 
 private:
-    void add(Question const& described, Window const& window) {
-        set_.add(described);
-        windows_.add(window);
-    }
-
     exact::Shape shape_;
     exact::Kernel kernel_;
     exact::KeyedSet set_;
-    exact::Descriptions described_;   ///< of the window that is added
+    exact::Descriptions described_;   ///< of the windows that are added or taken up
     WindowStore windows_;
     std::vector<Worker> workers_;   ///< of take_up, one a thread
 };
@@ -120,9 +115,11 @@ struct KnownMatch {
 /// turn.
 class Batch {
 public:
-    Batch(ExactGrowingIndex const& index, std::span<Window const> windows, std::span<Worker> workers)
-        : index_(index), windows_(windows), workers_(workers), asked_(index.shape()), known_(windows.size()),
-          numbers_(windows.size()), fresh_(index.new_set()) {
+    /// `described`: memory for what is asked, which must outlive it.
+    Batch(ExactGrowingIndex const& index, std::span<Window const> windows, std::span<Worker> workers,
+          exact::Descriptions& described)
+        : index_(index), windows_(windows), workers_(workers), asked_(described), known_(windows.size()),
+          numbers_(windows.size()), fresh_(index.shape()) {
         asked_.resize(windows.size());
     }
 
@@ -160,7 +157,7 @@ private:
     ExactGrowingIndex const& index_;
     std::span<Window const> windows_;
     std::span<Worker> workers_;
-    exact::Descriptions asked_;
+    exact::Descriptions& asked_;
     std::vector<KnownMatch> known_;
     std::vector<int> numbers_;
     exact::KeyedSet fresh_;
@@ -275,9 +272,13 @@ Match Batch::nearest_fresh(Worker& worker, std::size_t window, float bound, std:
 std::vector<int> ExactGrowingIndex::take_up(std::span<Window const> windows, int threads) {
     if (threads == 1) return GrowingIndex::take_up(windows, threads);   // nothing to share
     workers_.resize(static_cast<std::size_t>(threads));
-    Batch batch{*this, windows, workers_};
+    Batch batch{*this, windows, workers_, described_};
     batch.match();
-    for (std::size_t const window : batch.origins()) add(batch.described(window), windows[window]);
+    std::vector<Question> fresh;
+    for (std::size_t const window : batch.origins()) fresh.push_back(batch.described(window));
+    set_.add(fresh, threads, [&] {
+        for (std::size_t const window : batch.origins()) windows_.add(windows[window]);
+    });
     return batch.numbers();
 }
 

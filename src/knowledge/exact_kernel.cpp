@@ -79,8 +79,9 @@ LORE_INLINE void take_if_nearer(Nearest& best, std::int32_t feature, float dista
         best = {feature, distance};
 }
 
-LORE_INLINE KeyedSearch begun(KeyedView const& view, bool by_tables, Search const& asked) {
-    KeyedSearch search;
+template <int FixedWords>
+LORE_INLINE KeyedSearch<FixedWords> begun(KeyedView const& view, bool by_tables, Search const& asked) {
+    KeyedSearch<FixedWords> search;
     search.view = &view;
     search.by_tables = by_tables;
     search.question = asked.question;
@@ -91,7 +92,8 @@ LORE_INLINE KeyedSearch begun(KeyedView const& view, bool by_tables, Search cons
 }
 
 /// Bucket after bucket, until no search has one that is worth it. Changes the order of `going`.
-LORE_INLINE void look_through_buckets(KeyedSearch** going, int count) {
+template <int FixedWords>
+LORE_INLINE void look_through_buckets(KeyedSearch<FixedWords>** going, int count) {
     while (count > 0) {
         int left = 0;
         for (int i = 0; i < count; ++i)
@@ -105,12 +107,12 @@ LORE_INLINE void look_through_buckets(KeyedSearch** going, int count) {
     }
 }
 
-template <int together>
+template <int FixedWords, int together>
 LORE_INLINE void search_together(KeyedView const& view, Search* asked, int count) {
-    KeyedSearch searches[together];
-    KeyedSearch* going[together];
+    KeyedSearch<FixedWords> searches[together];
+    KeyedSearch<FixedWords>* going[together];
     for (int i = 0; i < count; ++i) {
-        searches[i] = begun(view, view.shape.hashes, asked[i]);
+        searches[i] = begun<FixedWords>(view, view.shape.hashes, asked[i]);
         going[i] = &searches[i];
         going[i]->fetch_buckets();
     }
@@ -124,12 +126,14 @@ LORE_INLINE void search_together(KeyedView const& view, Search* asked, int count
 }
 
 void closest(KeyedView const& view, Search* asked, int count) {
-    if (count == 1) search_together<1>(view, asked, count);
-    else search_together<searches_together>(view, asked, count);
+    constexpr int usual_words = 3;   // windows of collectball
+    if (count == 1) search_together<0, 1>(view, asked, count);
+    else if (view.shape.words == usual_words) search_together<usual_words, searches_together>(view, asked, count);
+    else search_together<0, searches_together>(view, asked, count);
 }
 
 void closest_among(KeyedView const& view, Search& asked, Bucket places) {
-    KeyedSearch search = begun(view, false, asked), *going = &search;
+    KeyedSearch<0> search = begun<0>(view, false, asked), *going = &search;
     search.rest = places;
     look_through_buckets(&going, 1);
     asked.finalists = search.remaining();
@@ -142,8 +146,8 @@ float distance(Shape const& shape, float const* a, float const* b) {
 bool any_within(KeyedView const& view, std::uint64_t const* words, Bucket places) {
     int const count = view.shape.words;
     for (std::uint32_t i = places.start; i < places.start + places.count; ++i) {
-        std::uint64_t const* const pattern =
-            view.patterns + static_cast<std::size_t>(view.keys[i].feature) * static_cast<std::size_t>(count);
+        auto const feature = static_cast<std::size_t>(view.tables->keys[i / key_group].features[i % key_group]);
+        std::uint64_t const* const pattern = view.patterns + feature * static_cast<std::size_t>(pattern_room(count));
         int differing = 0;
         for (int word = 0; word < count; ++word) differing += __builtin_popcountll(words[word] ^ pattern[word]);
         if (differing <= view.shape.most_differing) return true;

@@ -69,8 +69,24 @@ struct Key {
 };
 static_assert(sizeof(Key) == 16);
 
-/// Keys whose smallest and largest numbers a set that grows knows: four cache lines of neighbors in one bucket.
+/// A key's numbers, its sums and then its ones, in parts of four: one lane of 32 bits each.
+inline constexpr int key_parts = (key_size + 1) / 4;
+static_assert(key_parts * 4 == key_size + 1 && offsetof(Key, feature) == key_size + 1);
+
+/// Keys that are neighbors in one bucket. So many are looked at together, or passed over together by their range.
 inline constexpr int key_group = 16;
+
+/// The numbers of so many keys, or the ends of so many ranges: a vector has the same part of several.
+struct KeyNumbers {
+    std::uint8_t of[key_parts][key_group][4];
+};
+
+/// Four cache lines.
+struct KeyGroup {
+    KeyNumbers numbers;
+    std::int32_t features[key_group];
+};
+static_assert(sizeof(KeyGroup) == key_group * sizeof(Key));
 
 /// The features whose hashed bits fall into one slot of a table: places start .. start + count - 1.
 struct Bucket {
@@ -78,35 +94,48 @@ struct Bucket {
     std::uint32_t count;
 };
 
+/// From the pattern of one feature to that of the next, in 64-bit words: none lies in more cache lines than it must.
+LORE_INLINE constexpr int pattern_room(int words) {
+    constexpr int line = 8;
+    return words <= 2 ? words : words <= 4 ? 4 : (words + line - 1) / line * line;
+}
+
 /// A feature's pattern, then its Digest, in 64-bit words: of a final set.
 LORE_INLINE constexpr int record_size(int pattern_words) {
     return pattern_words + static_cast<int>(sizeof(Digest) / sizeof(std::uint64_t));
 }
 
-/// Hash tables: each feature is in one bucket of every table.
+/// Hash tables of a final set: each feature is in one bucket of every table.
 struct Tables {
     std::uint64_t const* masks;   ///< [table][word]: the bits that a table hashes
     Bucket const* buckets;        ///< [table][2^slot_bits]
     int slot_bits;
 };
 
+/// Keys of all features, and the hash table that they are in: each feature is in one bucket.
+struct KeyedTable {
+    KeyGroup const* keys;   ///< [place / key_group], there at place % key_group
+    /// [group / key_group], there at group % key_group, of buckets with more than key_group places, which begin at
+    /// whole groups: between these, number for number, lie the group's keys.
+    KeyNumbers const *least, *most;
+    std::uint64_t const* mask = nullptr;   ///< [word]: the bits that it hashes
+    Bucket const* buckets = nullptr;       ///< [2^slot_bits]; null: there is no hash table
+    int slot_bits = 0;
+};
+
 /// Keys of one bucket that are looked through before what was found among them is compared, where one bucket holds all.
 inline constexpr std::uint32_t keys_at_once = 2048;
 
 /// A set of features by their keys, as the kernel reads it: one that still grows, or a final one whose shares of
-/// keys_at_once are in falling order of worth. A bucket's places are those of `keys`.
+/// keys_at_once are in falling order of worth.
 struct KeyedView {
     Shape shape;
-    Tables tables;
-    Key const* keys;   ///< [place]
-    /// [place / key_group], of buckets with more than key_group places, which begin at whole groups: between these,
-    /// byte for byte, lie the group's keys. Null: not known.
-    Key const *least, *most;
-    std::uint64_t const* patterns;   ///< [feature][word]
+    KeyedTable const* tables;        ///< growing_tables of them; of a final one, one without a hash table
+    std::uint64_t const* patterns;   ///< [feature][pattern_room]
     std::uint8_t const* codes;       ///< [feature][code_size]
 };
 
-/// A final one. A bucket's places are those of `records`, so that it is read in one sweep.
+/// A final set with hash tables. A bucket's places are those of `records`, so that it is read in one sweep.
 struct FixedView {
     Shape shape;
     Tables tables;
@@ -128,10 +157,11 @@ struct Query {
     float const* values;
 };
 
-/// A bucket that a search has to look through.
+/// A bucket that a search has to look through, and the number of its table.
 struct Visit {
     Bucket bucket;
     std::int32_t table;
+    std::uint32_t slot;   ///< of the table
 };
 
 /// Tables of a set that grows.
@@ -172,7 +202,7 @@ struct Scratch {
     Finalist* finalists;    ///< room for as many as growing_tables of the largest buckets and one more
 };
 inline constexpr int recent_bits = 16;
-inline constexpr int spare_keys = 4;   ///< that a vector writes beyond the last one
+inline constexpr int spare_keys = key_group;   ///< that a vector writes beyond the last one
 
 /// Which features a search by keys is for.
 struct Wanted {
@@ -188,7 +218,7 @@ struct Search {
     int finalists;
 };
 /// So many are done together: each waits for memory most of the time, and while it does the others go on.
-inline constexpr int searches_together = 8;
+inline constexpr int searches_together = 12;
 
 /// A feature that may lie within the threshold.
 struct Candidate {

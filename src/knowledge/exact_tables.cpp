@@ -1,5 +1,6 @@
 #include "exact_tables.h"
 #include "exact_hash.h"
+#include "exact_keys.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +11,7 @@ namespace lore::exact {
 namespace {
 
 constexpr std::size_t features_a_slot = 4;   ///< of a set that grows, at most
+constexpr std::uint32_t ordered_parts = 8;   ///< of a bucket: one is added, and it is put into order
 
 /// The index in Tables::buckets of the bucket that a pattern belongs to.
 std::size_t bucket_of(int table, std::uint64_t const* pattern, std::vector<std::uint64_t> const& masks, int words,
@@ -18,14 +20,16 @@ std::size_t bucket_of(int table, std::uint64_t const* pattern, std::vector<std::
            hash_slot(pattern, masks.data() + table * words, words, slot_bits);
 }
 
-/// Makes a range of keys include one more.
+/// A key's numbers: its sums, and then its ones.
+std::uint8_t number(Key const& key, int which) { return reinterpret_cast<std::uint8_t const*>(&key)[which]; }
+
+/// Makes a range of keys include one more. (Whatever it makes of their features.)
 void widen(Key& least, Key& most, Key const& key) {
-    for (int i = 0; i < key_size; ++i) {
-        least.sums[i] = std::min(least.sums[i], key.sums[i]);
-        most.sums[i] = std::max(most.sums[i], key.sums[i]);
-    }
-    least.ones = std::min(least.ones, key.ones);
-    most.ones = std::max(most.ones, key.ones);
+    using Bytes = Lanes<std::uint8_t, sizeof(Key)>;
+    auto const low = lanes::cast_bits<Bytes>(least), high = lanes::cast_bits<Bytes>(most);
+    auto const bytes = lanes::cast_bits<Bytes>(key);
+    least = lanes::cast_bits<Key>(lanes::select(bytes < low, bytes, low));
+    most = lanes::cast_bits<Key>(lanes::select(bytes > high, bytes, high));
 }
 
 int words_of_a_mask(std::vector<std::uint64_t> const& masks, int tables) {
@@ -41,32 +45,60 @@ std::uint64_t* Records::add() {
 }
 
 void GroupedKeys::resize(std::size_t places) {
-    keys_.resize(places);
-    least_.resize((places + key_group - 1) / key_group);
+    size_ = places;
+    keys_.resize((places + key_group - 1) / key_group);
+    least_.resize((keys_.size() + key_group - 1) / key_group);
     most_.resize(least_.size());
 }
 
-void GroupedKeys::put(std::size_t place, Key const& key) {
-    keys_[place] = key;
-    std::size_t const group = place / key_group;
-    if (place % key_group == 0) {
-        least_[group] = most_[group] = key;
-        least_[group].feature = static_cast<std::int32_t>(group);
-    } else {
-        widen(least_[group], most_[group], key);
+void GroupedKeys::put(std::size_t place, std::span<Key const> keys) {
+    while (!keys.empty()) {
+        std::size_t const group = place / key_group, lane = place % key_group;
+        std::size_t const count = std::min(keys.size(), key_group - lane);
+        auto const range = static_cast<int>(group % key_group);
+        KeyNumbers &leasts = least_[group / key_group], &mosts = most_[group / key_group];
+        Key least = lane > 0 ? numbers_at(leasts, range) : keys[0];
+        Key most = lane > 0 ? numbers_at(mosts, range) : keys[0];
+        for (std::size_t i = 0; i < count; ++i) {
+            put_numbers(keys_[group].numbers, static_cast<int>(lane + i), keys[i]);
+            keys_[group].features[lane + i] = keys[i].feature;
+            widen(least, most, keys[i]);
+        }
+        put_numbers(leasts, range, least);
+        put_numbers(mosts, range, most);
+        place += count;
+        keys = keys.subspan(count);
     }
 }
 
-/// Halves them again and again by the number that differs most.
+Key GroupedKeys::operator[](std::size_t place) const {
+    KeyGroup const& group = keys_[place / key_group];
+    auto const lane = static_cast<int>(place % key_group);
+    Key key = numbers_at(group.numbers, lane);
+    key.feature = group.features[lane];
+    return key;
+}
+
+/// Halves them again and again by the number whose variance, of some of them, is the largest.
 void GroupedKeys::order(std::span<Key> keys) {
     if (keys.size() <= key_group) return;
-    Key least = keys[0], most = keys[0];
-    for (Key const& key : keys) widen(least, most, key);
-    auto const number = [](Key const& key, int which) { return which < key_size ? key.sums[which] : key.ones; };
-    auto const width = [&](int which) { return number(most, which) - number(least, which); };
+    constexpr std::size_t looked_at = 64;
+    std::size_t const stride = std::max<std::size_t>(1, keys.size() / looked_at);
+    std::array<std::uint32_t, key_size + 1> sums{}, squares{};
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < keys.size(); i += stride, ++count)
+        for (int which = 0; which <= key_size; ++which) {
+            std::uint32_t const x = number(keys[i], which);
+            sums[static_cast<std::size_t>(which)] += x;
+            squares[static_cast<std::size_t>(which)] += x * x;
+        }
+    auto const variance = [&](int which) {   // times the square of how many were looked at
+        auto const i = static_cast<std::size_t>(which);
+        return std::uint64_t{count} * squares[i] - std::uint64_t{sums[i]} * sums[i];
+    };
     int widest = 0;
     for (int which = 1; which <= key_size; ++which)
-        if (width(which) > width(widest)) widest = which;
+        if (variance(which) > variance(widest)) widest = which;
     std::size_t const half = (keys.size() / key_group + 1) / 2 * key_group;
     std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(half), keys.end(),
                      [&](Key const& a, Key const& b) { return number(a, widest) < number(b, widest); });
@@ -74,40 +106,51 @@ void GroupedKeys::order(std::span<Key> keys) {
     order(keys.subspan(half));
 }
 
-GrowingTables::GrowingTables(int tables, std::vector<std::uint64_t> masks)
-    : tables_(tables), words_(words_of_a_mask(masks, tables)), masks_(std::move(masks)),
-      buckets_(static_cast<std::size_t>(tables) << slot_bits_) {}
+GrowingTable::GrowingTable(std::vector<std::uint64_t> mask)
+    : mask_(std::move(mask)), buckets_(std::size_t{1} << slot_bits_) {}
 
-void GrowingTables::add(Records const& patterns, Key key) {
-    if (patterns.count() > features_a_slot << slot_bits_) double_slots(patterns);
-    key.feature = static_cast<std::int32_t>(patterns.count() - 1);
-    for (int table = 0; table < tables_; ++table) insert(table, patterns, key);
+KeyedTable GrowingTable::view() const {
+    KeyedTable view = keys_.view();
+    view.mask = mask_.data();
+    view.buckets = buckets_.data();
+    view.slot_bits = slot_bits_;
+    return view;
 }
 
-void GrowingTables::insert(int table, Records const& patterns, Key const& key) {
-    Bucket& bucket =
-        buckets_[bucket_of(table, patterns[static_cast<std::size_t>(key.feature)], masks_, words_, slot_bits_)];
+std::size_t GrowingTable::slot_of(std::uint64_t const* pattern) const {
+    return hash_slot(pattern, mask_.data(), static_cast<int>(mask_.size()), slot_bits_);
+}
+
+void GrowingTable::add(Records const& patterns, Key const& key) {
+    if (++features_ > features_a_slot << slot_bits_) double_slots(patterns);
+    Bucket& bucket = buckets_[slot_of(patterns[static_cast<std::size_t>(key.feature)])];
     bool const full = bucket.count == 0 || std::has_single_bit(bucket.count);
     if (full) {
-        std::span<Key> const moving = keys_of(bucket);
+        std::span<Key const> const moving = keys_of(bucket);
         std::uint32_t const before = std::exchange(bucket.start, take_room(std::max(1u, bucket.count * 2)));
         if (bucket.count > 0) give_back(before, bucket.count);
-        GroupedKeys::order(moving);
-        std::uint32_t place = bucket.start;
-        for (Key const& moved : moving) keys_.put(place++, moved);
+        keys_.put(bucket.start, moving);
     }
-    keys_.put(bucket.start + bucket.count, key);
+    keys_.put(bucket.start + bucket.count, std::span{&key, 1});
     ++bucket.count;
     largest_ = std::max(largest_, std::size_t{bucket.count});
+    std::uint32_t const part = std::max(2u * key_group, std::bit_floor(bucket.count) / ordered_parts);
+    if (bucket.count % part == 0) put_into_order(bucket);
 }
 
-std::span<Key> GrowingTables::keys_of(Bucket bucket) {
-    Key const* const first = keys_.keys() + bucket.start;
-    moving_.assign(first, first + bucket.count);
+void GrowingTable::put_into_order(Bucket bucket) {
+    std::span<Key> const keys = keys_of(bucket);
+    GroupedKeys::order(keys);
+    keys_.put(bucket.start, keys);
+}
+
+std::span<Key> GrowingTable::keys_of(Bucket bucket) {
+    moving_.resize(bucket.count);
+    for (std::uint32_t i = 0; i < bucket.count; ++i) moving_[i] = keys_[bucket.start + i];
     return moving_;
 }
 
-std::uint32_t GrowingTables::take_room(std::uint32_t places) {
+std::uint32_t GrowingTable::take_room(std::uint32_t places) {
     auto& free = free_[static_cast<std::size_t>(std::countr_zero(places))];
     if (!free.empty()) {
         std::uint32_t const start = free.back();
@@ -124,28 +167,29 @@ std::uint32_t GrowingTables::take_room(std::uint32_t places) {
     return start;
 }
 
-void GrowingTables::give_back(std::uint32_t start, std::uint32_t places) {
+void GrowingTable::give_back(std::uint32_t start, std::uint32_t places) {
     free_[static_cast<std::size_t>(std::countr_zero(places))].push_back(start);
 }
 
 /// A slot has one bit more of the hash than before: each bucket becomes two, where its keys lie.
-void GrowingTables::double_slots(Records const& patterns) {
+void GrowingTable::double_slots(Records const& patterns) {
     ++slot_bits_;
     PagedArray<Bucket> buckets{buckets_.size() * 2};
     largest_ = 0;
     for (std::size_t i = 0; i < buckets_.size(); ++i) {
         if (buckets_[i].count == 0) continue;
-        auto const halves = split(static_cast<int>(i >> (slot_bits_ - 1)), buckets_[i], patterns);
+        auto const halves = split(buckets_[i], patterns);
         std::copy(halves.begin(), halves.end(), buckets.data() + 2 * i);
         for (Bucket const& half : halves) largest_ = std::max(largest_, std::size_t{half.count});
     }
     buckets_ = std::move(buckets);
 }
 
-std::array<Bucket, 2> GrowingTables::split(int table, Bucket bucket, Records const& patterns) {
+std::array<Bucket, 2> GrowingTable::split(Bucket bucket, Records const& patterns) {
     std::span<Key> const all = keys_of(bucket);
+    for (Key const& key : all) __builtin_prefetch(patterns[static_cast<std::size_t>(key.feature)]);
     auto const moving = std::stable_partition(all.begin(), all.end(), [&](Key const& key) {
-        return bucket_of(table, patterns[static_cast<std::size_t>(key.feature)], masks_, words_, slot_bits_) % 2 == 0;
+        return slot_of(patterns[static_cast<std::size_t>(key.feature)]) % 2 == 0;
     });
     auto const stayed = static_cast<std::uint32_t>(moving - all.begin());
     if (stayed == bucket.count) return {bucket, Bucket{}};
@@ -155,11 +199,8 @@ std::array<Bucket, 2> GrowingTables::split(int table, Bucket bucket, Records con
         for (std::uint32_t room = before; room > now; room /= 2) give_back(bucket.start + room / 2, room / 2);
     std::array<Bucket, 2> const halves{{{stayed > 0 ? bucket.start : 0, stayed},
                                         {take_room(std::bit_ceil(bucket.count - stayed)), bucket.count - stayed}}};
-    std::uint32_t place = halves[0].start;
-    for (auto key = all.begin(); key != all.end(); ++key) {
-        if (key == moving) place = halves[1].start;
-        keys_.put(place++, *key);
-    }
+    keys_.put(halves[0].start, all.first(stayed));
+    keys_.put(halves[1].start, all.subspan(stayed));
     return halves;
 }
 

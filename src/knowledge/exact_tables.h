@@ -27,48 +27,53 @@ private:
     PagedArray<std::uint64_t> words_;
 };
 
-/// Keys, and what range those of each group have: KeyedView::keys, ::least and ::most.
+/// Keys, and what range those of each group have.
 class GroupedKeys {
 public:
-    std::size_t size() const { return keys_.size(); }
+    std::size_t size() const { return size_; }
     void resize(std::size_t places);
-    /// Those of a group in the order of their places.
-    void put(std::size_t place, Key const&);
+    /// Keys of places one after the other; those of a group in the order of their places.
+    void put(std::size_t place, std::span<Key const>);
+    Key operator[](std::size_t place) const;
     /// Puts keys into an order in which neighbors are alike, so that most groups of them are ruled out by their range.
     static void order(std::span<Key>);
-    Key const* keys() const { return keys_.data(); }
-    Key const* least() const { return least_.data(); }
-    Key const* most() const { return most_.data(); }
+    /// Without a hash table. Valid until places are added.
+    KeyedTable view() const { return {keys_.data(), least_.data(), most_.data()}; }
 
 private:
-    PagedArray<Key> keys_, least_, most_;   ///< the feature of a least one is its group's number
+    std::size_t size_ = 0;
+    PagedArray<KeyGroup> keys_;
+    PagedArray<KeyNumbers> least_, most_;
 };
 
-/// Hash tables of a set that grows: buckets hold keys, and what else is needed of the few that these do not rule out is
-/// fetched by their feature. Where a bucket doubles, its keys are put into order.
-class GrowingTables {
+/// A hash table of a set that grows: buckets hold keys, and what else is needed of the few that these do not rule out
+/// is fetched by their feature. A bucket's keys are put into order whenever an eighth has been added.
+class GrowingTable {
 public:
-    GrowingTables(int tables, std::vector<std::uint64_t> masks);
+    /// `mask`: the bits of a pattern that it hashes.
+    explicit GrowingTable(std::vector<std::uint64_t> mask);
 
-    /// The last of the patterns, which `key` belongs to.
-    void add(Records const& patterns, Key);
-    Tables view() const { return {masks_.data(), buckets_.data(), slot_bits_}; }
+    /// The next feature, whose pattern is among `patterns`.
+    void add(Records const& patterns, Key const&);
+    /// Valid until the next call of add.
+    KeyedTable view() const;
     GroupedKeys const& keys() const { return keys_; }
     std::size_t largest_bucket() const { return largest_; }
 
 private:
-    void insert(int table, Records const&, Key const&);
+    std::size_t slot_of(std::uint64_t const* pattern) const;
     /// Room for places, a power of two, one after the other.
     std::uint32_t take_room(std::uint32_t places);
     void give_back(std::uint32_t start, std::uint32_t places);
     void double_slots(Records const&);
-    std::array<Bucket, 2> split(int table, Bucket, Records const&);
+    std::array<Bucket, 2> split(Bucket, Records const&);
+    void put_into_order(Bucket);
     /// A copy of a bucket's keys, valid until the next call.
     std::span<Key> keys_of(Bucket);
 
-    int tables_, words_;
-    std::vector<std::uint64_t> masks_;
+    std::vector<std::uint64_t> mask_;
     int slot_bits_ = 8;
+    std::size_t features_ = 0;
     PagedArray<Bucket> buckets_;                        ///< with room for as many places as the next power of two
     GroupedKeys keys_;                                  ///< [place]
     std::array<std::vector<std::uint32_t>, 32> free_;   ///< room that buckets have left behind, by log2 of its places

@@ -17,6 +17,8 @@ constexpr float relative_code_error = 0x1p-19f;
 
 /// One question to a set by its keys. As the search goes on, what was found leaves less and less room for a better one.
 /// It is done in steps: each ends by fetching what the next one reads.
+/// FixedWords: how many words a pattern has if it is known when compiling, else 0.
+template <int FixedWords>
 struct KeyedSearch {
     KeyedView const* view = nullptr;
     bool by_tables = false;   ///< else all places are looked through, by shares
@@ -29,26 +31,29 @@ struct KeyedSearch {
     int finalists = 0;
     std::uint64_t recent_slot = 0;
     // Where it stands
-    Bucket bucket{};             ///< the one that is looked through
-    int visits = 0;              ///< buckets seen before it
-    int unseen = 0;              ///< bits, at least, in which a feature differs that is in none of these
-    int blocks[2] = {0, 0};      ///< seen, of the even and of the odd ones
-    int of_halves[2] = {0, 0};   ///< 1: the half was seen
-    Bucket rest{};               ///< places that are left, if not by tables
-    int groups = 0;              ///< of its keys, in scratch, if it has_groups
-    int candidates = 0;          ///< in scratch
+    Bucket bucket{};                     ///< the one that is looked through
+    KeyedTable const* table = nullptr;   ///< its table
+    int visits = 0;                      ///< buckets seen before it
+    int unseen = 0;                      ///< bits, at least, in which a feature differs that is in none of these
+    int blocks[2] = {0, 0};              ///< seen, of the even and of the odd ones
+    int of_halves[2] = {0, 0};           ///< 1: the half was seen
+    Bucket rest{};                       ///< places that are left, if not by tables
+    int groups = 0;                      ///< of its keys, in scratch, if it has_groups
+    int candidates = 0;                  ///< in scratch
 
     LORE_INLINE Shape const& shape() const { return view->shape; }
+    LORE_INLINE int word_count() const { return FixedWords > 0 ? FixedWords : shape().words; }
     LORE_INLINE std::uint64_t const* words() const { return question.words; }
     LORE_INLINE std::uint64_t const* pattern_of(std::int32_t feature) const {
-        return view->patterns + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape().words);
+        return view->patterns +
+               static_cast<std::size_t>(feature) * static_cast<std::size_t>(pattern_room(word_count()));
     }
     LORE_INLINE std::uint8_t const* codes_of(std::int32_t feature) const {
         return view->codes + static_cast<std::size_t>(feature) * static_cast<std::size_t>(shape().code_size);
     }
     LORE_INLINE int differing_bits(std::uint64_t const* pattern) const {
         int differing = 0;
-        for (int word = 0; word < shape().words; ++word)
+        for (int word = 0; word < word_count(); ++word)
             differing += __builtin_popcountll(words()[word] ^ pattern[word]);
         return differing;
     }
@@ -82,14 +87,18 @@ struct KeyedSearch {
         return kept;
     }
 
-    /// A table's bucket of the window.
-    LORE_INLINE Bucket const* bucket_of(int table) const {
-        std::uint64_t const slot =
-            hash_slot(words(), view->tables.masks + table * shape().words, shape().words, view->tables.slot_bits);
-        return view->tables.buckets + ((static_cast<std::size_t>(table) << view->tables.slot_bits) + slot);
+    template <class T>
+    LORE_INLINE static void fetch_lines(T const* from) {
+        for (std::size_t at = 0; at < sizeof(T); at += 64)
+            __builtin_prefetch(reinterpret_cast<std::uint8_t const*>(from) + at);
     }
     LORE_INLINE void fetch_buckets() const {
-        for (int table = 0; table < growing_tables(shape()); ++table) __builtin_prefetch(bucket_of(table));
+        for (int number = 0; number < growing_tables(shape()); ++number) {
+            KeyedTable const& one = view->tables[number];
+            std::uint64_t const slot = hash_slot(words(), one.mask, word_count(), one.slot_bits);
+            __builtin_prefetch(one.buckets + slot);
+            scratch.visits[number] = {{}, number, static_cast<std::uint32_t>(slot)};
+        }
     }
     LORE_INLINE void fetch(std::int32_t feature) const {
         __builtin_prefetch(pattern_of(feature));
@@ -101,18 +110,19 @@ struct KeyedSearch {
     LORE_INLINE void order_visits() {
         int const halves = shape().halves ? 2 : 0, tables = growing_tables(shape());
         std::uint32_t in_blocks[2] = {0, 0};
-        for (int table = 0; table < tables; ++table) {
-            scratch.visits[table] = {*bucket_of(table), table};
-            if (table >= halves) in_blocks[table % 2] += scratch.visits[table].bucket.count;
+        for (int number = 0; number < tables; ++number) {
+            Visit& visit = scratch.visits[number];
+            visit.bucket = view->tables[number].buckets[visit.slot];
+            if (number >= halves) in_blocks[number % 2] += visit.bucket.count;
         }
         int const smaller = in_blocks[1] < in_blocks[0];
         auto const rank = [&](Visit const& visit) {
             std::uint64_t const group = visit.table < halves ? 0 : halves > 0 && visit.table % 2 != smaller ? 2 : 1;
             return group << 32 | visit.bucket.count;
         };
-        for (int table = 1; table < tables; ++table) {
-            Visit const visit = scratch.visits[table];
-            int place = table;
+        for (int number = 1; number < tables; ++number) {
+            Visit const visit = scratch.visits[number];
+            int place = number;
             for (; place > 0 && rank(scratch.visits[place - 1]) > rank(visit); --place)
                 scratch.visits[place] = scratch.visits[place - 1];
             scratch.visits[place] = visit;
@@ -125,9 +135,9 @@ struct KeyedSearch {
     LORE_INLINE bool shares_a_block(std::uint64_t const* pattern) const {
         bool shares = false;
         for (int visit = 0; visit < visits; ++visit) {
-            std::uint64_t const* const mask = view->tables.masks + scratch.visits[visit].table * shape().words;
+            std::uint64_t const* const mask = view->tables[scratch.visits[visit].table].mask;
             std::uint64_t differing = 0;
-            for (int word = 0; word < shape().words; ++word) differing |= (words()[word] ^ pattern[word]) & mask[word];
+            for (int word = 0; word < word_count(); ++word) differing |= (words()[word] ^ pattern[word]) & mask[word];
             shares |= differing == 0;
         }
         return shares;
@@ -167,6 +177,7 @@ struct KeyedSearch {
     }
     /// False: no feature that was not seen may be better.
     LORE_INLINE bool choose_bucket() {
+        table = view->tables;
         if (!by_tables) {
             bucket = {rest.start, rest.count < keys_at_once ? rest.count : keys_at_once};
             rest = {rest.start + bucket.count, rest.count - bucket.count};
@@ -178,41 +189,45 @@ struct KeyedSearch {
                 unseen += blocks[half] > of_halves[half] ? blocks[half] : of_halves[half];
             if (visits == growing_tables(shape()) || bound < static_cast<float>(unseen)) return false;
             bucket = scratch.visits[visits].bucket;
+            table += scratch.visits[visits].table;
         }
         if (has_groups()) {
-            std::uint32_t const first = bucket.start / key_group, count = bucket.count / key_group;
-            for (std::uint32_t group = 0; group < count && group < fetched_at_most; group += 4) {
-                __builtin_prefetch(view->least + first + group);
-                __builtin_prefetch(view->most + first + group);
+            Bucket const all = groups_of_bucket();
+            for (std::uint32_t group = 0; group < all.count && group < fetched_at_most; group += key_group) {
+                fetch_lines(table->least + (all.start + group) / key_group);
+                fetch_lines(table->most + (all.start + group) / key_group);
             }
         } else {
-            fetch_keys(bucket.start, bucket.count);
+            for (std::uint32_t group = first_group(); group < end_group(); ++group) fetch_lines(table->keys + group);
         }
         return true;
     }
-    LORE_INLINE void fetch_keys(std::uint32_t start, std::uint32_t count) const {
-        for (std::uint32_t key = 0; key < count; key += 4) __builtin_prefetch(view->keys + start + key);
-    }
+    LORE_INLINE std::uint32_t first_group() const { return bucket.start / key_group; }
+    LORE_INLINE std::uint32_t end_group() const { return (bucket.start + bucket.count + key_group - 1) / key_group; }
+    /// By number.
+    LORE_INLINE Bucket groups_of_bucket() const { return {first_group(), end_group() - first_group()}; }
     LORE_INLINE void look_at_groups() {
         if (!has_groups()) return;
-        std::uint32_t const first = bucket.start / key_group, count = (bucket.count + key_group - 1) / key_group;
-        groups = near_keys(view->least + first, view->most + first, static_cast<int>(count),
-                           {question.key, most_bits(), largest()}, {scratch.groups, scratch.apart});
-        for (int i = 0; i < groups && i < fetched_at_most; ++i)
-            fetch_keys(static_cast<std::uint32_t>(scratch.groups[i]) * key_group, key_group);
-    }
-    LORE_INLINE int near_keys_of_bucket() {
+        Bucket const all = groups_of_bucket();
         NearKeys const near{question.key, most_bits(), largest()};
-        NearFeatures const out{scratch.features, scratch.apart};
-        Key const* const keys = view->keys + bucket.start;
-        if (!has_groups()) return near_keys(keys, keys, static_cast<int>(bucket.count), near, out);
+        groups = 0;
+        for (std::uint32_t block = all.start / key_group; block * key_group < all.start + all.count; ++block)
+            groups += near_keys(table->least[block], table->most[block], lanes_of(all, block), nullptr,
+                                block * key_group, near, NearNames{scratch.groups, scratch.apart}.from(groups));
+        for (int i = 0; i < groups && i < fetched_at_most; ++i) fetch_lines(table->keys + scratch.groups[i]);
+    }
+    LORE_INLINE int near_keys_of_bucket() const {
+        NearKeys const near{question.key, most_bits(), largest()};
         int found = 0;
-        for (int i = 0; i < groups; ++i) {
-            std::uint32_t const start = static_cast<std::uint32_t>(scratch.groups[i]) * key_group;
-            std::uint32_t const behind = bucket.start + bucket.count - start;
-            int const size = behind < key_group ? static_cast<int>(behind) : key_group;
-            found += near_keys(view->keys + start, view->keys + start, size, near, out.from(found));
-        }
+        auto const look_at = [&](std::uint32_t group) {
+            KeyGroup const& keys = table->keys[group];
+            found += near_keys(keys.numbers, keys.numbers, lanes_of(bucket, group), keys.features, 0, near,
+                               NearNames{scratch.features, scratch.apart}.from(found));
+        };
+        if (has_groups())
+            for (int i = 0; i < groups; ++i) look_at(static_cast<std::uint32_t>(scratch.groups[i]));
+        else
+            for (std::uint32_t group = first_group(); group < end_group(); ++group) look_at(group);
         return found;
     }
     /// Puts the one whose key is the nearest at the end: it will leave little room for the others.
@@ -262,9 +277,9 @@ struct KeyedSearch {
             if (is_promising(scratch.promising[i]))
                 compare(scratch.promising[i].feature, scratch.promising[i].differing);
         if (!by_tables) return;
-        int const table = scratch.visits[visits].table;
-        if (shape().halves && table < 2) of_halves[table] = 1;
-        else ++blocks[table % 2];
+        int const number = scratch.visits[visits].table;
+        if (shape().halves && number < 2) of_halves[number] = 1;
+        else ++blocks[number % 2];
         ++visits;
     }
     LORE_INLINE void remember() const {
@@ -275,7 +290,7 @@ struct KeyedSearch {
 
     /// The place in scratch.recent. Windows whose keys agree in their two highest bits are alike.
     LORE_INLINE std::uint64_t slot_of_recent() const {
-        std::uint64_t const by_bits = hash_slot(words(), nullptr, shape().words, recent_bits);
+        std::uint64_t const by_bits = hash_slot(words(), nullptr, word_count(), recent_bits);
         if (shape().hashes) return by_bits;
         std::uint64_t coarse[2];
         std::memcpy(coarse, &question.key, sizeof coarse);

@@ -1,4 +1,6 @@
 #include "keyed_set.h"
+#include "exact_shape.h"
+#include "parallel.h"
 
 #include <algorithm>
 
@@ -22,12 +24,37 @@ Question Descriptions::operator[](std::size_t number) const {
             codes_.data() + number * static_cast<std::size_t>(shape_->code_size), keys_[number]};
 }
 
-void KeyedSet::add(Question const& described) {
-    std::copy_n(described.words, patterns_.record_words(), patterns_.add());
-    auto const bytes = static_cast<std::size_t>(shape_->code_size);
-    codes_.resize(patterns_.count() * bytes);
-    std::copy_n(described.codes, bytes, codes_.data() + codes_.size() - bytes);
-    tables_.add(patterns_, described.key);
+KeyedSet::KeyedSet(Shape const& shape) : shape_(&shape), patterns_(pattern_room(shape.words)) {
+    auto const masks = growing_masks_of(shape);
+    for (auto mask = masks.begin(); tables_.size() < static_cast<std::size_t>(growing_tables(shape));
+         mask += shape.words)
+        tables_.emplace_back(std::vector(mask, mask + shape.words));
+    for (GrowingTable const& table : tables_) views_.push_back(table.view());
+}
+
+void KeyedSet::add(std::span<Question const> described, int threads, std::function<void()> const& beside) {
+    std::size_t const before = size(), bytes = static_cast<std::size_t>(shape_->code_size);
+    for (Question const& one : described) {
+        std::copy_n(one.words, shape_->words, patterns_.add());
+        codes_.resize(patterns_.count() * bytes);
+        std::copy_n(one.codes, bytes, codes_.data() + codes_.size() - bytes);
+    }
+    in_parallel(tables_.size() + 1, 1, threads, [&](std::size_t, std::size_t item, std::size_t) {
+        if (item == 0) return beside();
+        GrowingTable& table = tables_[item - 1];
+        for (std::size_t i = 0; i < described.size(); ++i) {
+            Key key = described[i].key;
+            key.feature = static_cast<std::int32_t>(before + i);
+            table.add(patterns_, key);
+        }
+        views_[item - 1] = table.view();
+    });
+}
+
+std::size_t KeyedSet::largest_bucket() const {
+    std::size_t largest = 0;
+    for (GrowingTable const& table : tables_) largest = std::max(largest, table.largest_bucket());
+    return largest;
 }
 
 Scratch SearchMemory::room_for(Shape const& shape, std::size_t largest_bucket, RecentMatches* recent) {

@@ -6,6 +6,7 @@
 #include <lore/core/paged_array.h>
 #include <lore/knowledge/index.h>
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -30,28 +31,28 @@ private:
     PagedArray<Key> keys_;
 };
 
-inline KeyedView keyed_view(Shape const& shape, Tables const& tables, GroupedKeys const& keys, Records const& patterns,
-                            PagedArray<std::uint8_t> const& codes) {
-    return {shape, tables, keys.keys(), keys.least(), keys.most(), patterns[0], codes.data()};
-}
-
 /// A set that grows: all but the values of its windows.
 class KeyedSet {
 public:
     /// `shape` must outlive it.
-    KeyedSet(Shape const& shape, std::vector<std::uint64_t> masks)
-        : shape_(&shape), patterns_(shape.words), tables_(growing_tables(shape), std::move(masks)) {}
+    explicit KeyedSet(Shape const& shape);
 
-    void add(Question const&);
+    /// The next features. Threads share its tables and, as one of them, `beside`.
+    void add(std::span<Question const>, int threads, std::function<void()> const& beside);
+    void add(Question const& one) {
+        add(std::span{&one, 1}, 1, [] {});
+    }
     std::size_t size() const { return patterns_.count(); }
-    std::size_t largest_bucket() const { return tables_.largest_bucket(); }
-    KeyedView view() const { return keyed_view(*shape_, tables_.view(), tables_.keys(), patterns_, codes_); }
+    std::size_t largest_bucket() const;
+    /// Valid until features are added.
+    KeyedView view() const { return {*shape_, views_.data(), patterns_[0], codes_.data()}; }
 
 private:
     Shape const* shape_;
     Records patterns_;
-    GrowingTables tables_;
     PagedArray<std::uint8_t> codes_;
+    std::vector<GrowingTable> tables_;
+    std::vector<KeyedTable> views_;   ///< of the tables
 };
 
 inline constexpr std::int32_t all_features = std::numeric_limits<std::int32_t>::max();
