@@ -91,6 +91,7 @@ LORE_INLINE int near_keys(KeyNumbers const& least, KeyNumbers const& most, LaneM
     int found = 0;
     constexpr int at_once = 4;
     for (int lane = 0; lane < key_group; lane += at_once) {
+        if ((lanes >> lane & 0xf) == 0) continue;   // of a small bucket
         std::int32_t apart[at_once], ones_apart[at_once];
 #if defined(__SSE2__)
         __m128i sums = _mm_setzero_si128(), ones = sums;
