@@ -80,18 +80,18 @@ TEST_P(GrowingTableOf, masked_patterns_has_every_feature_once_however_much_it_gr
 INSTANTIATE_TEST_SUITE_P(Masks, GrowingTableOf,
                          ::testing::Values(0x00000000ffffffffu, 0xffffffff00000000u, ~std::uint64_t{0}));
 
-TEST(GrowingTable, puts_keys_that_are_alike_into_one_group) {
-    // 64 keys of one pattern, of two kinds in turn: in the order of their coming each group would have both.
+TEST(GrowingTable, puts_keys_that_are_alike_into_one_group_also_between_two_doublings) {
+    // 96 keys of one pattern, of two kinds in turn: in the order of their coming each group would have both.
     exact::GrowingTable table{{~std::uint64_t{0}}};
     exact::Records records{1};
-    for (int i = 0; i < 64; ++i) {
+    for (int i = 0; i < 96; ++i) {
         *records.add() = 1;
         table.add(records, {{static_cast<std::uint8_t>(i % 2 == 0 ? 10 : 200)}, 0, i});
     }
     exact::KeyedTable const view = table.view();
     std::uint64_t const pattern = 1;
     std::uint32_t const first = view.buckets[exact::hash_slot(&pattern, view.mask, 1, view.slot_bits)].start / 16;
-    for (std::uint32_t group = first; group < first + 4; ++group) {
+    for (std::uint32_t group = first; group < first + 6; ++group) {
         auto const [least, most] = range_of(view, group);
         EXPECT_EQ(least.sums[0], most.sums[0]);
     }
