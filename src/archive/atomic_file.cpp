@@ -42,11 +42,22 @@ struct Temporary {
 
 std::string name_beside(std::string const& path) { return fmt::format("{}{}{}", path, temporary_mark, ::getpid()); }
 
+/// Of a large file each part is on its way to the disk while the next is written.
+void write_in_parts(FileDescriptor const& file, std::span<std::byte const> content, std::string const& path) {
+    constexpr std::size_t part = std::size_t{16} << 20;
+    for (; content.size() > part; content = content.subspan(part)) {
+        write_fully(file.get(), content.first(part), path);
+        off_t const end = ::lseek(file.get(), 0, SEEK_CUR);
+        ::sync_file_range(file.get(), end - static_cast<off_t>(part), part, SYNC_FILE_RANGE_WRITE);   // a wish
+    }
+    write_fully(file.get(), content, path);
+}
+
 /// `path` is what errors call it.
 void write_durably(std::string const& temporary, BytePieces content, std::string const& path) {
     FileDescriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
     if (file.get() < 0) throw file_error("write", path, errno);
-    for (std::span<std::byte const> const piece : content) write_fully(file.get(), piece, path);
+    for (std::span<std::byte const> const piece : content) write_in_parts(file, piece, path);
     sync_file(file.get(), path);
     if (!file.close()) throw file_error("write", path, errno);
 }

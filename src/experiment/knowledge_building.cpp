@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <condition_variable>
@@ -42,48 +43,71 @@ struct Batch {
     std::size_t size() const { return ids.size(); }
 };
 
-/// Batches from the thread that simulates to the one that matches, in order.
+/// Batches from the thread that simulates to the one that matches, in order. The one that simulates is a guest of the
+/// crew that shares the matching: it helps there as long as a batch is waiting.
 class BatchQueue {
 public:
+    explicit BatchQueue(Crew& crew) : crew_(crew) {}
+
     /// Waits for room. False if the reader has stopped.
     bool put(Batch batch) {
-        std::unique_lock lock{mutex_};
-        changed_.wait(lock, [&] { return waiting_.size() < most_batches_waiting || abandoned_; });
+        crew_.assist_until([&] {
+            std::lock_guard const lock{mutex_};
+            return waiting_.size() < most_batches_waiting || abandoned_;
+        });
+        std::lock_guard const lock{mutex_};
         if (abandoned_) return false;
         waiting_.push_back(std::move(batch));
+        has_waiting_ = true;
         changed_.notify_all();
         return true;
     }
-    /// No batch will follow; `failure` is why, if not because all is done.
+    /// No batch will follow; `failure` is why, if not because all is done. Returns when the reader has stopped.
     void finish(std::exception_ptr failure) {
-        std::lock_guard const lock{mutex_};
-        finished_ = true;
-        failure_ = failure;
-        changed_.notify_all();
+        {
+            std::lock_guard const lock{mutex_};
+            finished_ = true;
+            failure_ = failure;
+            changed_.notify_all();
+        }
+        crew_.assist_until([&] {
+            std::lock_guard const lock{mutex_};
+            return abandoned_;
+        });
+    }
+    /// Helps with the matching unless that is about to wait for a batch.
+    void assist() {
+        if (has_waiting_) crew_.assist();
     }
     /// Waits for the next one; an empty batch is the end. Rethrows what went wrong on the other side.
     Batch take() {
-        std::unique_lock lock{mutex_};
-        changed_.wait(lock, [&] { return !waiting_.empty() || finished_; });
-        if (waiting_.empty()) {
-            if (failure_) std::rethrow_exception(failure_);
-            return {};
+        Batch batch;
+        {
+            std::unique_lock lock{mutex_};
+            changed_.wait(lock, [&] { return !waiting_.empty() || finished_; });
+            if (!waiting_.empty()) {
+                batch = std::move(waiting_.front());
+                waiting_.pop_front();
+            } else if (failure_) std::rethrow_exception(failure_);
+            has_waiting_ = !waiting_.empty();
         }
-        Batch batch = std::move(waiting_.front());
-        waiting_.pop_front();
-        changed_.notify_all();
+        crew_.wake();
         return batch;
     }
     void abandon() {
-        std::lock_guard const lock{mutex_};
-        abandoned_ = true;
-        changed_.notify_all();
+        {
+            std::lock_guard const lock{mutex_};
+            abandoned_ = true;
+        }
+        crew_.wake();
     }
 
 private:
+    Crew& crew_;   // never called with the mutex locked
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Batch> waiting_;
+    std::atomic<bool> has_waiting_{false};
     bool finished_ = false, abandoned_ = false;
     std::exception_ptr failure_;
 };
@@ -94,10 +118,12 @@ struct Abandoned {};
 /// Gathers the sensorimotor records of episodes that run in lanes.
 class Recorder : public LaneClient {
 public:
-    Recorder(Channels const& channels, std::span<Network const> networks, std::vector<Trace>& traces)
+    /// `meanwhile` is called every now and then.
+    Recorder(Channels const& channels, std::span<Network const> networks, std::vector<Trace>& traces,
+             std::function<void()> const& meanwhile)
         : words_(static_cast<std::size_t>(channels.words())),
           continuous_(static_cast<std::size_t>(channels.continuous_count())), networks_(networks),
-          order_(largest_first(networks)), traces_(traces) {}
+          order_(largest_first(networks)), traces_(traces), meanwhile_(meanwhile) {}
 
     Network const* next(int lane) override {
         if (next_ == order_.size()) return nullptr;
@@ -120,6 +146,7 @@ public:
             auto const lane = static_cast<std::size_t>(reward.lane);
             traces_[episodes_[lane]].rewards.push_back({firsts_[lane] + reward.row, reward.amount});
         }
+        meanwhile_();
     }
 
     void rest(int lane, int steps) override {
@@ -149,11 +176,12 @@ private:
     std::vector<int> order_;
     std::size_t next_ = 0;
     std::vector<Trace>& traces_;
+    std::function<void()> const& meanwhile_;
     std::array<std::size_t, most_lanes> episodes_{};
     std::array<int, most_lanes> firsts_{};   ///< the step of the episode at which the chunk begins
 };
 
-void simulate(RunDirectory const& run, Batch& batch) {
+void simulate(RunDirectory const& run, Batch& batch, std::function<void()> const& meanwhile) {
     World const& world = *run.world.world;
     Channels const channels{world.facts()};
     auto const steps = static_cast<std::size_t>(run.config.episode.steps);
@@ -163,7 +191,7 @@ void simulate(RunDirectory const& run, Batch& batch) {
         trace.channel_bits.reserve(steps * static_cast<std::size_t>(channels.words()));
         trace.values.reserve(steps * static_cast<std::size_t>(channels.continuous_count()));
     }
-    Recorder recorder{channels, batch.networks, batch.traces};
+    Recorder recorder{channels, batch.networks, batch.traces, meanwhile};
     run_in_lanes(world, run.config.episode, chunk_steps, recorder);
     for (std::size_t i = 0; i < batch.size(); ++i) {
         if (batch.traces[i].reward != batch.rewards[i])
@@ -182,12 +210,14 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
                     Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence,
                     std::string const& folder = {}) {
     config.channels = Channels{run.world.world->facts()};
-    BatchQueue queue;
+    int const threads = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+    Crew crew{threads, 1};
+    BatchQueue queue{crew};
     std::thread simulator{[&] {
         try {
             Batch batch;
             auto const send = [&] {
-                simulate(run, batch);
+                simulate(run, batch, [&] { queue.assist(); });
                 if (!queue.put(std::exchange(batch, {}))) throw Abandoned{};
             };
             source([&](IndividualId id, Genome const& genome, double reward) {
@@ -212,13 +242,12 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     } const join{queue, simulator};
 
     KnowledgeBuilder builder{config, make_index(index, config, folder), std::move(evidence)};
-    int const threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     for (Batch batch = queue.take(); batch.size() > 0; batch = queue.take()) {
         std::vector<Exhibit> exhibits;
         for (std::size_t i = 0; i < batch.size(); ++i)
             exhibits.push_back({windows_of(batch.traces[i], config.window_length), batch.rewards[i],
                                 batch.traces[i].rewards, batch.ids[i].generation});
-        builder.add_individuals(exhibits, threads);
+        builder.add_individuals(exhibits, crew);
         observe(static_cast<std::int64_t>(builder.individuals()), builder.features());
     }
     provenance.index = text(index);

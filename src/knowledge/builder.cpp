@@ -16,11 +16,16 @@ KnowledgeBuilder::KnowledgeBuilder(KnowledgeConfig config, std::unique_ptr<Growi
 KnowledgeBuilder::~KnowledgeBuilder() = default;
 KnowledgeBuilder::KnowledgeBuilder(KnowledgeBuilder&&) noexcept = default;
 
-void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, int threads) {
+void KnowledgeBuilder::add_individual(Exhibit const& exhibit) {
+    Crew alone{1};
+    add_individuals({&exhibit, 1}, alone);
+}
+
+void KnowledgeBuilder::add_individuals(std::span<Exhibit const> exhibits, Crew& crew) {
     std::vector<Window> windows;
     for (Exhibit const& exhibit : exhibits)
         windows.insert(windows.end(), exhibit.windows.begin(), exhibit.windows.end());
-    std::vector<int> const shown = index_->take_up(windows, threads);
+    std::vector<int> const shown = index_->take_up(windows, crew);
     std::size_t next = 0;
     for (Exhibit const& exhibit : exhibits) {
         ++individuals_;   // numbers individuals from 1, so that 0 in last_exhibitor_ is no individual

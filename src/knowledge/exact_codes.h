@@ -69,7 +69,11 @@ LORE_INLINE float code_squares(Shape const& shape, std::uint8_t const* a, std::u
     }
     using Sixteen = Lanes<std::int32_t, 16>;
     auto const numbers = __builtin_convertvector(lanes::cast_bits<Sixteen>(sums), Lanes<float, 16>);
-    for (int lane = 0; lane < 16; ++lane) all += numbers[lane];
+    auto const by_eight = __builtin_shufflevector(numbers, numbers, 0, 1, 2, 3, 4, 5, 6, 7) +
+                          __builtin_shufflevector(numbers, numbers, 8, 9, 10, 11, 12, 13, 14, 15);
+    auto const by_four = __builtin_shufflevector(by_eight, by_eight, 0, 1, 2, 3) +
+                         __builtin_shufflevector(by_eight, by_eight, 4, 5, 6, 7);
+    all = (by_four[0] + by_four[2]) + (by_four[1] + by_four[3]);
 #else
     constexpr int summed_at_once = 1 << 14;   // 32 bits hold their squares
     for (int from = 0; from < size; from += summed_at_once) {

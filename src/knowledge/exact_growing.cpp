@@ -2,7 +2,6 @@
 #include "exact_kernel.h"
 #include "exact_shape.h"
 #include "keyed_set.h"
-#include "parallel.h"
 #include "window_store.h"
 
 #include <lore/knowledge/index.h>
@@ -38,7 +37,7 @@ class ExactGrowingIndex : public GrowingIndex {
 public:
     ExactGrowingIndex(KnowledgeConfig const& config, std::string const& folder)
         : shape_(exact::shape_of(config)), kernel_(exact::kernel_of(active_isa())), set_(shape_), described_(shape_),
-          windows_(config, folder) {
+          windows_(config, folder), fresh_(shape_) {
         described_.resize(1);
     }
 
@@ -47,7 +46,7 @@ public:
         set_.add(described_[0]);
         windows_.add(window);
     }
-    std::vector<int> take_up(std::span<Window const>, int threads) override;
+    std::vector<int> take_up(std::span<Window const>, Crew&) override;
     int size() const override { return static_cast<int>(set_.size()); }
     WindowArrays release() override { return windows_.release(); }
     std::unique_ptr<FeatureSearch> search() const override;
@@ -63,6 +62,7 @@ private:
     exact::KeyedSet set_;
     exact::Descriptions described_;   ///< of the windows that are added or taken up
     WindowStore windows_;
+    exact::KeyedSet fresh_;         ///< of take_up: of each call, but for its memory
     std::vector<Worker> workers_;   ///< of take_up, one a thread
 };
 
@@ -115,11 +115,12 @@ struct KnownMatch {
 /// turn.
 class Batch {
 public:
-    /// `described`: memory for what is asked, which must outlive it.
-    Batch(ExactGrowingIndex const& index, std::span<Window const> windows, std::span<Worker> workers,
-          exact::Descriptions& described)
-        : index_(index), windows_(windows), workers_(workers), asked_(described), known_(windows.size()),
-          numbers_(windows.size()), fresh_(index.shape()) {
+    /// What it works with must outlive it: one worker a thread, memory for what is asked, and an empty set for its
+    /// features.
+    Batch(ExactGrowingIndex const& index, std::span<Window const> windows, Crew& crew, std::span<Worker> workers,
+          exact::Descriptions& asked, exact::KeyedSet& fresh)
+        : index_(index), windows_(windows), crew_(crew), workers_(workers), asked_(asked), known_(windows.size()),
+          numbers_(windows.size()), fresh_(fresh) {
         asked_.resize(windows.size());
     }
 
@@ -136,9 +137,9 @@ private:
     template <class Work>
     void share_out(Work const& work) {
         constexpr std::size_t share = 512;   // many, because neighbors are alike
-        in_parallel(
-            windows_.size(), share, static_cast<int>(workers_.size()),
-            [&](std::size_t thread, std::size_t first, std::size_t last) { work(workers_[thread], first, last); });
+        crew_.share(windows_.size(), share, [&](std::size_t thread, std::size_t first, std::size_t last) {
+            work(workers_[thread], first, last);
+        });
     }
     std::vector<std::size_t> alike_together() const;
     void match_among_known(Worker&, std::span<std::size_t const> windows);
@@ -156,11 +157,12 @@ private:
 
     ExactGrowingIndex const& index_;
     std::span<Window const> windows_;
+    Crew& crew_;
     std::span<Worker> workers_;
     exact::Descriptions& asked_;
     std::vector<KnownMatch> known_;
     std::vector<int> numbers_;
-    exact::KeyedSet fresh_;
+    exact::KeyedSet& fresh_;
     std::vector<std::size_t> origins_;   ///< [fresh feature]
 };
 
@@ -269,14 +271,15 @@ Match Batch::nearest_fresh(Worker& worker, std::size_t window, float bound, std:
                       [&](int feature) { return windows_[origins_[static_cast<std::size_t>(feature)]].values.data(); });
 }
 
-std::vector<int> ExactGrowingIndex::take_up(std::span<Window const> windows, int threads) {
-    if (threads == 1) return GrowingIndex::take_up(windows, threads);   // nothing to share
-    workers_.resize(static_cast<std::size_t>(threads));
-    Batch batch{*this, windows, workers_, described_};
+std::vector<int> ExactGrowingIndex::take_up(std::span<Window const> windows, Crew& crew) {
+    if (crew.threads() == 1) return GrowingIndex::take_up(windows, crew);   // nothing to share
+    workers_.resize(static_cast<std::size_t>(crew.threads()));
+    fresh_.clear();
+    Batch batch{*this, windows, crew, workers_, described_, fresh_};
     batch.match();
     std::vector<Question> fresh;
     for (std::size_t const window : batch.origins()) fresh.push_back(batch.described(window));
-    set_.add(fresh, threads, [&] {
+    set_.add(fresh, crew, [&] {
         for (std::size_t const window : batch.origins()) windows_.add(windows[window]);
     });
     return batch.numbers();

@@ -44,6 +44,11 @@ std::uint64_t* Records::add() {
     return words_.data() + words_.size() - size_;
 }
 
+void Records::clear() {
+    count_ = 0;
+    words_.resize(0);
+}
+
 void GroupedKeys::resize(std::size_t places) {
     size_ = places;
     keys_.resize((places + key_group - 1) / key_group);
@@ -136,6 +141,14 @@ void GrowingTable::add(Records const& patterns, Key const& key) {
     largest_ = std::max(largest_, std::size_t{bucket.count});
     std::uint32_t const part = std::max(2u * key_group, std::bit_floor(bucket.count) / ordered_parts);
     if (bucket.count % part == 0) put_into_order(bucket);
+}
+
+void GrowingTable::clear() {
+    features_ = 0;
+    largest_ = 0;
+    std::fill_n(buckets_.data(), buckets_.size(), Bucket{});
+    keys_.resize(0);
+    for (auto& rooms : free_) rooms.clear();
 }
 
 void GrowingTable::put_into_order(Bucket bucket) {

@@ -18,6 +18,8 @@ public:
     explicit Records(int words) : size_(static_cast<std::size_t>(words)) {}
     /// The next feature's, to be filled in.
     std::uint64_t* add();
+    /// As in PagedArray: memory is kept.
+    void clear();
     std::uint64_t const* operator[](std::size_t feature) const { return words_.data() + feature * size_; }
     std::size_t count() const { return count_; }
     std::size_t record_words() const { return size_; }
@@ -55,6 +57,8 @@ public:
 
     /// The next feature, whose pattern is among `patterns`.
     void add(Records const& patterns, Key const&);
+    /// Has no features, but the slots and the memory that it had: it is likely to have as many again.
+    void clear();
     /// Valid until the next call of add.
     KeyedTable view() const;
     GroupedKeys const& keys() const { return keys_; }

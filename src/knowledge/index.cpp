@@ -69,7 +69,7 @@ WindowArrays FeatureWindows::release() {
     return {kept->bits, kept->values, kept};
 }
 
-std::vector<int> GrowingIndex::take_up(std::span<Window const> windows, int) {
+std::vector<int> GrowingIndex::take_up(std::span<Window const> windows, Crew&) {
     std::vector<int> numbers;
     numbers.reserve(windows.size());
     if (!search_) search_ = search();

@@ -1,6 +1,5 @@
 #include "keyed_set.h"
 #include "exact_shape.h"
-#include "parallel.h"
 
 #include <algorithm>
 
@@ -32,23 +31,46 @@ KeyedSet::KeyedSet(Shape const& shape) : shape_(&shape), patterns_(pattern_room(
     for (GrowingTable const& table : tables_) views_.push_back(table.view());
 }
 
-void KeyedSet::add(std::span<Question const> described, int threads, std::function<void()> const& beside) {
-    std::size_t const before = size(), bytes = static_cast<std::size_t>(shape_->code_size);
-    for (Question const& one : described) {
-        std::copy_n(one.words, shape_->words, patterns_.add());
-        codes_.resize(patterns_.count() * bytes);
-        std::copy_n(one.codes, bytes, codes_.data() + codes_.size() - bytes);
-    }
-    in_parallel(tables_.size() + 1, 1, threads, [&](std::size_t, std::size_t item, std::size_t) {
-        if (item == 0) return beside();
-        GrowingTable& table = tables_[item - 1];
-        for (std::size_t i = 0; i < described.size(); ++i) {
-            Key key = described[i].key;
-            key.feature = static_cast<std::int32_t>(before + i);
-            table.add(patterns_, key);
-        }
-        views_[item - 1] = table.view();
+void KeyedSet::add(Question const& one) {
+    std::size_t const number = size();
+    keep(one);
+    for (std::size_t table = 0; table < tables_.size(); ++table) fill(table, number, {&one, 1});
+}
+
+void KeyedSet::add(std::span<Question const> described, Crew& crew, std::function<void()> const& beside) {
+    std::size_t const first = size();
+    for (Question const& one : described) keep(one);
+    crew.share(tables_.size() + 1, 1, [&](std::size_t, std::size_t item, std::size_t) {
+        if (item == 0) beside();
+        else fill(item - 1, first, described);
     });
+}
+
+void KeyedSet::clear() {
+    patterns_.clear();
+    codes_.resize(0);
+    for (std::size_t table = 0; table < tables_.size(); ++table) {
+        tables_[table].clear();
+        views_[table] = tables_[table].view();
+    }
+}
+
+/// All but its key.
+void KeyedSet::keep(Question const& described) {
+    std::size_t const bytes = static_cast<std::size_t>(shape_->code_size);
+    std::copy_n(described.words, shape_->words, patterns_.add());
+    codes_.resize(patterns_.count() * bytes);
+    std::copy_n(described.codes, bytes, codes_.data() + codes_.size() - bytes);
+}
+
+/// With features from number `first` on.
+void KeyedSet::fill(std::size_t table, std::size_t first, std::span<Question const> described) {
+    for (Question const& one : described) {
+        Key key = one.key;
+        key.feature = static_cast<std::int32_t>(first++);
+        tables_[table].add(patterns_, key);
+    }
+    views_[table] = tables_[table].view();
 }
 
 std::size_t KeyedSet::largest_bucket() const {

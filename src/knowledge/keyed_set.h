@@ -3,6 +3,7 @@
 #include "exact_kernel.h"
 #include "exact_tables.h"
 
+#include <lore/core/crew.h>
 #include <lore/core/paged_array.h>
 #include <lore/knowledge/index.h>
 
@@ -37,17 +38,21 @@ public:
     /// `shape` must outlive it.
     explicit KeyedSet(Shape const& shape);
 
-    /// The next features. Threads share its tables and, as one of them, `beside`.
-    void add(std::span<Question const>, int threads, std::function<void()> const& beside);
-    void add(Question const& one) {
-        add(std::span{&one, 1}, 1, [] {});
-    }
+    /// The next feature.
+    void add(Question const&);
+    /// The next features. The crew shares its tables and, as one of them, `beside`.
+    void add(std::span<Question const>, Crew&, std::function<void()> const& beside);
+    /// Has no features, but the memory of those that it had.
+    void clear();
     std::size_t size() const { return patterns_.count(); }
     std::size_t largest_bucket() const;
     /// Valid until features are added.
     KeyedView view() const { return {*shape_, views_.data(), patterns_[0], codes_.data()}; }
 
 private:
+    void keep(Question const&);
+    void fill(std::size_t table, std::size_t first, std::span<Question const>);
+
     Shape const* shape_;
     Records patterns_;
     PagedArray<std::uint8_t> codes_;

@@ -13,7 +13,7 @@ namespace lore {
 /// A vector for arrays of gigabytes, read here and there: the kernel moves its pages when it grows, so that nothing is
 /// copied and never are there two of it; what was not written takes no memory; and from 2 MiB on it has large pages
 /// where the kernel has them, since to find a small page takes longer than to read from it. It begins at a page. New
-/// items are 0.
+/// items are 0, unless there were some before where they are.
 template <class T>
 class PagedArray {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -41,7 +41,7 @@ public:
     T const& operator[](std::size_t i) const { return items_[i]; }
     std::size_t size() const { return size_; }
 
-    /// Never smaller. Pointers to items are lost. Throws std::bad_alloc.
+    /// Memory is never given back. Pointers to items are lost. Throws std::bad_alloc.
     void resize(std::size_t size) {
         if (size * sizeof(T) > bytes_) reserve(size);
         size_ = size;

@@ -23,9 +23,9 @@ public:
     ~KnowledgeBuilder();
     KnowledgeBuilder(KnowledgeBuilder&&) noexcept;
     /// Adds what this individual exhibits; each feature gets its reward once however often it was shown.
-    void add_individual(Exhibit const& exhibit) { add_individuals({&exhibit, 1}, 1); }
-    /// As add_individual for each in order, with the search shared among threads where the index can.
-    void add_individuals(std::span<Exhibit const>, int threads);
+    void add_individual(Exhibit const& exhibit);
+    /// As add_individual for each in order; the crew shares the search where the index can.
+    void add_individuals(std::span<Exhibit const>, Crew&);
     int features() const { return static_cast<int>(counts_.size()); }
     std::uint64_t individuals() const { return individuals_; }
     std::uint64_t windows() const { return windows_; }

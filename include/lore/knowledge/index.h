@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/core/crew.h>
 #include <lore/knowledge/knowledge_base.h>
 
 #include <limits>
@@ -85,8 +86,8 @@ public:
     /// Feature number = order of addition.
     virtual void add(Window const&) = 0;
     /// Takes up windows in order: the number of each one's match, or of the feature that it becomes because it has
-    /// none. The numbers do not depend on the threads, which share the work where that is possible.
-    virtual std::vector<int> take_up(std::span<Window const>, int threads);
+    /// none. The numbers do not depend on the crew, which shares the work where that is possible.
+    virtual std::vector<int> take_up(std::span<Window const>, Crew&);
     /// Hands over the windows of all features; nothing but destruction may follow.
     virtual WindowArrays release() = 0;
 

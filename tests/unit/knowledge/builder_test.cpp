@@ -102,9 +102,10 @@ TEST(KnowledgeBuilder, gives_the_same_base_one_by_one_and_in_batches_by_any_numb
     for (int const threads : {1, 2, 5})
         for (std::size_t const batch : {1u, 7u, 24u}) {
             KnowledgeBuilder builder{config, make_exact_index(config)};
+            Crew crew{threads};
             for (std::size_t first = 0; first < exhibits.size(); first += batch)
                 builder.add_individuals(std::span{exhibits}.subspan(first, std::min(batch, exhibits.size() - first)),
-                                        threads);
+                                        crew);
             EXPECT_EQ(builder.matched(), matched);
             EXPECT_EQ(builder.individuals(), exhibits.size());
             KnowledgeBase const base = std::move(builder).finish({});

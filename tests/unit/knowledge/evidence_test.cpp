@@ -147,8 +147,9 @@ TEST(Evidence, changes_nothing_of_features_values_and_counts_and_is_the_same_in_
         without.add_individual(exhibit);
         plain.add_individual(exhibit);
     }
-    batches.add_individuals(std::span{exhibits}.first(7), 3);
-    batches.add_individuals(std::span{exhibits}.subspan(7), 2);
+    Crew crew{3};
+    batches.add_individuals(std::span{exhibits}.first(7), crew);
+    batches.add_individuals(std::span{exhibits}.subspan(7), crew);
     KnowledgeBase const bare = std::move(without).finish({}), base = std::move(plain).finish({}),
                         by_batch = std::move(batches).finish({});
     ASSERT_EQ(base.size(), bare.size());

@@ -189,7 +189,8 @@ TEST(KnowledgeBuilder, gives_the_same_base_by_scan_and_by_the_exact_index_whatev
         for (Trace const& trace : lives.asked)
             exhibits.push_back({windows_of(trace, config.window_length), rng.uniform(-1, 1)});
         for (Exhibit const& exhibit : exhibits) plain.add_individual(exhibit);
-        fast.add_individuals(exhibits, 2);
+        Crew crew{2};
+        fast.add_individuals(exhibits, crew);
         KnowledgeBase const expected = std::move(plain).finish({}), base = std::move(fast).finish({});
         ASSERT_EQ(base.size(), expected.size());
         EXPECT_TRUE(std::ranges::equal(base.parts().bits, expected.parts().bits));

@@ -77,6 +77,26 @@ TEST_P(GrowingTableOf, masked_patterns_has_every_feature_once_however_much_it_gr
     EXPECT_GT(table.largest_bucket(), 150u);
     expect_all(table, records, keys);
 }
+
+TEST_P(GrowingTableOf, masked_patterns_that_was_cleared_is_filled_like_a_new_one) {
+    Stream rng{74, Purpose::test};
+    exact::GrowingTable table{{GetParam()}};
+    exact::Records records{1};
+    for (int const features : {5'000, 0, 300, 9'000}) {
+        table.clear();
+        records.clear();
+        expect_all(table, records, {});
+        std::vector<exact::Key> keys;
+        for (int i = 0; i < features; ++i) {
+            *records.add() = rng.below(3) | std::uint64_t{rng.below(400)} << 7;
+            exact::Key key{{}, static_cast<std::uint8_t>(rng.below(64)), i};
+            for (std::uint8_t& sum : key.sums) sum = static_cast<std::uint8_t>(rng.below(256));
+            keys.push_back(key);
+            table.add(records, key);
+        }
+        expect_all(table, records, keys);
+    }
+}
 INSTANTIATE_TEST_SUITE_P(Masks, GrowingTableOf,
                          ::testing::Values(0x00000000ffffffffu, 0xffffffff00000000u, ~std::uint64_t{0}));
 

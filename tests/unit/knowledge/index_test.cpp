@@ -104,7 +104,8 @@ TEST_P(EveryExactIndex, takes_up_each_window_with_the_nearest_of_those_that_were
                                   {0b111000000, 0.5f}});
     for (int const threads : {1, 2, 5}) {
         auto const index = index_of(GetParam()(test::config_of(1)), known, 1);
-        EXPECT_EQ(index->take_up(windows_of(batch, 1), threads), (std::vector<int>{0, 1, 1, 0, 1, 0, 2, 2}));
+        Crew crew{threads};
+        EXPECT_EQ(index->take_up(windows_of(batch, 1), crew), (std::vector<int>{0, 1, 1, 0, 1, 0, 2, 2}));
         EXPECT_EQ(index->size(), 3);
         EXPECT_EQ(match(*index, windows_of(batch, 1)[6]), (Match{2, 0.0f}));
     }
@@ -117,9 +118,10 @@ TEST(ExactIndex, keeps_windows_in_a_folder_and_answers_as_if_they_were_in_memory
     std::vector<Trace> traces;
     for (int i = 0; i < 12; ++i) traces.push_back(test::lifelike_trace(rng, 2000));
     auto const in_memory = make_exact_index(config), in_folder = make_exact_index(config, scratch.path());
+    Crew crew{2};
     for (Trace const& trace : traces) {
         std::vector<Window> const windows = windows_of(trace, config.window_length);
-        ASSERT_EQ(in_folder->take_up(windows, 2), in_memory->take_up(windows, 2));
+        ASSERT_EQ(in_folder->take_up(windows, crew), in_memory->take_up(windows, crew));
         for (Window const& window : windows)
             ASSERT_EQ(in_folder->search()->match(window), in_memory->search()->match(window));
     }
