@@ -7,7 +7,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <csignal>
+#include <numeric>
+#include <utility>
 
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -39,6 +42,21 @@ TEST(AtomicFile, replaces_a_former_file_and_leaves_nothing_else) {
     write_file_atomically(scratch.file("a"), "second");
     EXPECT_EQ(text(scratch.file("a")), "second");
     EXPECT_EQ(entries(scratch.path()), 1);
+}
+
+TEST(AtomicFile, is_whole_when_it_is_so_large_that_it_is_written_in_parts) {
+    Scratch const scratch;
+    std::vector<std::uint32_t> numbers((std::size_t{40} << 20) / sizeof(std::uint32_t));
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    auto const large = std::as_bytes(std::span{std::as_const(numbers)}), small = large.first(3);
+    std::vector<std::span<std::byte const>> const pieces{small, large, small};
+    write_file_atomically(scratch.file("a"), BytePieces{pieces});
+    auto const written = read_file(scratch.file("a"));
+    ASSERT_EQ(written.size(), large.size() + 6);
+    std::span const bytes{written};
+    EXPECT_TRUE(std::ranges::equal(bytes.first(3), small));
+    EXPECT_TRUE(std::ranges::equal(bytes.subspan(3, large.size()), large));
+    EXPECT_TRUE(std::ranges::equal(bytes.last(3), small));
 }
 
 TEST(AtomicFile, takes_the_place_of_no_pipe_and_of_no_link) {
