@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <condition_variable>
@@ -58,7 +57,6 @@ public:
         std::lock_guard const lock{mutex_};
         if (abandoned_) return false;
         waiting_.push_back(std::move(batch));
-        has_waiting_ = true;
         changed_.notify_all();
         return true;
     }
@@ -77,7 +75,11 @@ public:
     }
     /// Helps with the matching unless that is about to wait for a batch.
     void assist() {
-        if (has_waiting_) crew_.assist();
+        {
+            std::lock_guard const lock{mutex_};
+            if (waiting_.empty()) return;
+        }
+        crew_.assist();
     }
     /// Waits for the next one; an empty batch is the end. Rethrows what went wrong on the other side.
     Batch take() {
@@ -89,7 +91,6 @@ public:
                 batch = std::move(waiting_.front());
                 waiting_.pop_front();
             } else if (failure_) std::rethrow_exception(failure_);
-            has_waiting_ = !waiting_.empty();
         }
         crew_.wake();
         return batch;
@@ -107,7 +108,6 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Batch> waiting_;
-    std::atomic<bool> has_waiting_{false};
     bool finished_ = false, abandoned_ = false;
     std::exception_ptr failure_;
 };
@@ -210,6 +210,7 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
                     Provenance provenance, BuildingObserver const& observe, EvidenceConfig evidence,
                     std::string const& folder = {}) {
     config.channels = Channels{run.world.world->facts()};
+    // At least the one that matches, which is this, and its guest, which simulates.
     int const threads = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
     Crew crew{threads, 1};
     BatchQueue queue{crew};
