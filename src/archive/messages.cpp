@@ -1,6 +1,7 @@
 #include <lore/archive/messages.h>
 
 #include "byte_stream.h"
+#include "channel_words.h"
 #include "edge_bytes.h"
 #include "field_limits.h"
 
@@ -16,77 +17,14 @@ namespace lore {
 namespace {
 
 constexpr std::size_t most_batch = 1u << 20;
-constexpr std::size_t longest_evaluation = 1u << 24;            ///< words
-constexpr std::size_t most_words = (most_channels + 15) / 16;   ///< a step
 
 using Words = std::vector<std::uint16_t>;   ///< Descriptors::channel_bits
 
-constexpr std::size_t block_words = 64;
-using Block = std::array<std::uint16_t, block_words>;
-
-/// The word of the step before; 0 before the first step.
-std::uint16_t word_before(Words const& words, std::size_t place, std::size_t in_a_step) {
-    return place < in_a_step ? std::uint16_t{0} : words[place - in_a_step];
-}
-
-/// Most steps repeat the one before. A block is sent as a bit a word, whether it differs from that of the step before,
-/// and those words that do.
-void put_words(ByteWriter& out, Words const& words, int words_a_step) {
-    std::size_t const in_a_step = static_cast<std::size_t>(std::max(1, words_a_step));
-    out.put(static_cast<std::uint8_t>(in_a_step));
-    out.put_varint(words.size());
-    for (std::size_t first = 0; first < words.size(); first += block_words) {
-        std::size_t const end = std::min(first + block_words, words.size());
-        std::uint64_t which = 0;
-        Block differing;
-        std::size_t count = 0;
-        bool const repeats = first >= in_a_step && std::memcmp(&words[first], &words[first - in_a_step],
-                                                               (end - first) * sizeof(std::uint16_t)) == 0;
-        for (std::size_t i = first; i < end && !repeats; ++i) {   // without a jump: which words differ is hard to guess
-            bool const differs = words[i] != word_before(words, i, in_a_step);
-            which |= static_cast<std::uint64_t>(differs) << (i - first);
-            differing[count] = words[i];
-            count += differs;
-        }
-        out.put_varint(which);
-        out.put_all(std::span<std::uint16_t const>{differing.data(), count});
-    }
-}
-
-/// Words [first, last) as in the step before.
-void repeat(Words& words, std::size_t first, std::size_t last, std::size_t in_a_step) {
-    if (in_a_step > 1 || first == 0)
-        for (; first < last; ++first) words[first] = word_before(words, first, in_a_step);
-    else std::fill(words.data() + first, words.data() + last, words[first - 1]);
-}
-
-void get_words(ByteReader& in, Words& words) {
-    std::size_t const in_a_step = in.get<std::uint8_t>();
-    if (in_a_step == 0 || in_a_step > most_words) in.fail("steps of no world");
-    words.resize(in.get_count(std::min(longest_evaluation, block_words * in.left())));
-    for (std::size_t first = 0; first < words.size(); first += block_words) {
-        std::size_t const count = std::min(block_words, words.size() - first);
-        std::uint64_t const which = in.get_varint();
-        if (count < block_words && which >> count != 0) in.fail("a word after the last one");
-        Block differing;
-        in.get_into(std::span{differing}.first(static_cast<std::size_t>(std::popcount(which))));
-        auto next = differing.begin();
-        std::size_t place = first;
-        for (std::uint64_t rest = which; rest != 0; rest &= rest - 1) {
-            std::size_t const other = first + static_cast<std::size_t>(std::countr_zero(rest));
-            repeat(words, place, other, in_a_step);
-            words[other] = *next++;
-            place = other + 1;
-        }
-        repeat(words, place, first + count, in_a_step);
-    }
-}
-
-/// A field of an evaluation: words of steps by what changes, other vectors with their count before them, all else as it
-/// lies in memory.
+/// A field of an evaluation: words of steps by what changes (channel_words.h), other vectors with their count before
+/// them, all else as it lies in memory.
 template <class Field>
 void put_field(ByteWriter& out, Field const& field, int words_a_step) {
-    if constexpr (std::is_same_v<Field, Words>) put_words(out, field, words_a_step);
+    if constexpr (std::is_same_v<Field, Words>) put_channel_words(out, field, words_a_step);
     else if constexpr (Flat<Field>) out.put(field);
     else {
         out.put_varint(field.size());
@@ -95,7 +33,7 @@ void put_field(ByteWriter& out, Field const& field, int words_a_step) {
 }
 template <class Field>
 void get_field(ByteReader& in, Field& field) {
-    if constexpr (std::is_same_v<Field, Words>) get_words(in, field);
+    if constexpr (std::is_same_v<Field, Words>) get_channel_words(in, field);
     else if constexpr (Flat<Field>) field = in.get<Field>();
     else {
         using Item = typename Field::value_type;
@@ -188,7 +126,7 @@ std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {
 
 Bytes pack_pool(DistanceKind kind, int known, std::span<Descriptors const* const> members) {
     ByteWriter out;
-    out.put(kind);
+    out.put_varint(static_cast<std::uint64_t>(kind));
     out.put_varint(static_cast<std::uint64_t>(known));
     out.put_varint(members.size());
     for (Descriptors const* member : members)
@@ -199,8 +137,7 @@ Bytes pack_pool(DistanceKind kind, int known, std::span<Descriptors const* const
 void unpack_pool(std::span<std::byte const> bytes, ComparedPool& pool) {
     ByteReader in{bytes, "a message with descriptors"};
     DistanceKind const before = pool.kind;
-    pool.kind = in.get<DistanceKind>();
-    if (static_cast<int>(pool.kind) >= distance_kinds) in.fail("a distance that there is not");
+    pool.kind = static_cast<DistanceKind>(in.get_count(distance_kinds - 1));
     std::size_t const known = in.get_count(most_batch);
     if (pool.kind != before) pool.members.clear();
     pool.members.resize(in.get_count(std::min(most_batch, bytes.size())));
@@ -213,16 +150,16 @@ void unpack_pool(std::span<std::byte const> bytes, ComparedPool& pool) {
     in.expect_end();
 }
 
-Bytes pack_distances(int first, int last, DistanceMatrix const& matrix) {
+Bytes pack_distances(std::span<double const> distances) {
     ByteWriter out;
-    out.reserve(matrix.rows(first, last).size_bytes() + room_for_trailer);
-    out.put_all(matrix.rows(first, last));
+    out.reserve(distances.size_bytes() + room_for_trailer);
+    out.put_all(distances);
     return out.take();
 }
 
-void unpack_distances(std::span<std::byte const> bytes, int first, int last, DistanceMatrix& matrix) {
+void unpack_distances(std::span<std::byte const> bytes, std::span<double> distances) {
     ByteReader in{bytes, "a message with distances"};
-    in.get_into(matrix.rows(first, last));
+    in.get_into(distances);
     in.expect_end();
 }
 

@@ -41,19 +41,23 @@ private:
     EuclideanKernel kernel_ = kernel_for(active_isa(), LORE_KERNELS(euclidean))();
 };
 
-/// Each sum runs in the order of the points: a point is first summed over those before it, and then each later one adds
-/// its distance. The sum over those before is a chain of additions; a block of points keeps several under way.
-std::vector<double> means_of(Points points) {
+/// Of points [begin, end). Each sum runs in the order of the points: over those before `begin`, then over those among
+/// which each pair is measured once, then over those from `end` on. Of a pair among them, the earlier point's sum takes
+/// the distance at once, and the later point's when it has come so far; that is a chain of additions, and a block of
+/// points keeps several under way.
+std::vector<double> means_of(Points points, int begin, int end) {
     constexpr int block = 8;
     int const count = points.count();
-    std::vector<double> sums(static_cast<std::size_t>(count), 0.0), distances(sums.size() * block);
+    std::vector<double> sums(static_cast<std::size_t>(count), 0.0), distances(sums.size() * block);   // by point
     double* const rows = distances.data();
-    for (int first = 0; first < count; first += block) {
-        int const last = std::min(first + block, count);
+    for (int i = 0; i < begin; ++i) points.measure(i, begin, end, rows, sums.data());
+    for (int first = begin; first < end; first += block) {
+        int const last = std::min(first + block, end);
         auto const row = [&](int i) { return rows + static_cast<std::ptrdiff_t>(i - first) * count; };
-        for (int i = first; i < last; ++i) points.measure(i, 0, first, row(i), sums.data());
+        for (int i = first; i < last; ++i) points.measure(i, begin, first, row(i), sums.data());
         double before[block] = {};   // a row that no point has any more is summed, too, and not used
-        for (int j = 0; j < first; ++j)
+        std::copy(sums.begin() + first, sums.begin() + last, before);
+        for (int j = begin; j < first; ++j)
             for (int k = 0; k < block; ++k) before[k] += rows[static_cast<std::ptrdiff_t>(k) * count + j];
         for (int i = first; i < last; ++i) {
             points.measure(i, first, i, row(i), sums.data());
@@ -61,18 +65,20 @@ std::vector<double> means_of(Points points) {
             for (int j = first; j < i; ++j) sums[i] += row(i)[j];
         }
     }
-    for (double& sum : sums) sum /= count;
-    return sums;
+    for (int i = end; i < count; ++i) points.measure(i, begin, end, rows, sums.data());
+    std::vector<double> means(sums.begin() + begin, sums.begin() + end);
+    for (double& mean : means) mean /= count;
+    return means;
 }
 
 }   // namespace
 
 bool is_euclidean(DistanceKind kind) { return kind == DistanceKind::adhoc || kind == DistanceKind::entropy; }
 
-std::vector<double> mean_distances(DistanceKind kind, std::span<Descriptors const* const> pool) {
-    assert(is_euclidean(kind));
-    return kind == DistanceKind::adhoc ? means_of({pool, &Descriptors::outcome})
-                                       : means_of({pool, &Descriptors::entropies});
+std::vector<double> mean_distances(DistanceKind kind, std::span<Descriptors const* const> pool, int first, int last) {
+    assert(is_euclidean(kind) && 0 <= first && first <= last && last <= static_cast<int>(pool.size()));
+    return kind == DistanceKind::adhoc ? means_of({pool, &Descriptors::outcome}, first, last)
+                                       : means_of({pool, &Descriptors::entropies}, first, last);
 }
 
 }   // namespace lore

@@ -7,9 +7,8 @@
 
 namespace lore {
 
-/// Measures on all ranks (Farm::distances): each is given the pool and a range of rows, rank 0 too, of about equal
-/// area. Shared are kinds whose pairs take longer than to send what they compare, where there are rows enough; others,
-/// and means, are rank 0's alone.
+/// Measures on all ranks (Farm::distances): each is given the pool and a range of its members, rank 0 too, that take
+/// about equally long. Where there are few, rank 0 measures alone.
 class DistanceFarm : public DistanceMeasurer {
 public:
     explicit DistanceFarm(FarmState& state) : state_(state) {}
@@ -26,7 +25,7 @@ class DistanceWorker {
 public:
     DistanceWorker(Post& post, int rank, int ranks) : post_(post), rank_(rank), ranks_(ranks) {}
 
-    /// Hands the pool of the message on, measures this rank's rows and sends them to rank 0.
+    /// Hands the pool of the message on, measures this rank's rows or means and sends them to rank 0.
     void measure(Message const&);
 
 private:

@@ -20,7 +20,7 @@ inline constexpr int pulses_a_look = 8;
 enum class MessageKind : int {
     evaluate = 1,   ///< genomes; unit: the ticket of the first, the others follow
     evaluated,      ///< evaluations, each with its ticket
-    pool,           ///< what a distance compares of all members; each rank measures its range of rows
+    pool,           ///< what a distance compares of all members; each rank measures its range of them
     distances,      ///< these
     failure,        ///< unit: the ticket of an evaluation that threw, or nothing of a pool; payload: the reason
     stop,           ///< leave serve()

@@ -76,13 +76,13 @@ struct Distances {
 void distances_out(benchmark::State& state, DistanceKind kind) {
     Distances const distances{kind};
     std::size_t bytes = 0;
-    for (auto _ : state) bytes = pack_distances(0, distances.size, distances.matrix).size();
+    for (auto _ : state) bytes = pack_distances(distances.matrix.rows(0, distances.size)).size();
     count(state, distances.pairs(), bytes, "pair");
 }
 void distances_in(benchmark::State& state, DistanceKind kind) {
     Distances distances{kind};
-    Bytes const message = pack_distances(0, distances.size, distances.matrix);
-    for (auto _ : state) unpack_distances(message, 0, distances.size, distances.matrix);
+    Bytes const message = pack_distances(distances.matrix.rows(0, distances.size));
+    for (auto _ : state) unpack_distances(message, distances.matrix.rows(0, distances.size));
     count(state, distances.pairs(), message.size(), "pair");
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <lore/archive/container.h>
-#include <lore/behavior/distance_matrix.h>
+#include <lore/behavior/descriptors.h>
+#include <lore/behavior/distances.h>
 #include <lore/evaluation/evaluation.h>
 
 #include <span>
@@ -27,7 +28,7 @@ struct Delivery {
     Evaluation evaluation;
     friend bool operator==(Delivery const&, Delivery const&) = default;
 };
-/// One of 4000 steps and up to 16 channels takes 1 to 2 kB, since most steps repeat the Hamming bits of the one before;
+/// One of 4000 steps and up to 16 channels takes 1 to 3 kB, since most steps repeat the Hamming bits of the one before;
 /// at most 9 kB, and 9 kB for each further 16 channels.
 Bytes pack_deliveries(std::span<Delivery const>);
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
@@ -43,8 +44,9 @@ Bytes pack_pool(DistanceKind, int known, std::span<Descriptors const* const> mem
 /// Bits take the memory of those of the pool before: of many, new memory would cost as much as unpacking.
 void unpack_pool(std::span<std::byte const>, ComparedPool&);
 
-/// The distances (i, j), j < i, of rows [first, last), row after row.
-Bytes pack_distances(int first, int last, DistanceMatrix const&);
-void unpack_distances(std::span<std::byte const>, int first, int last, DistanceMatrix&);
+/// What a rank has measured of a pool: rows of its matrix, or means.
+Bytes pack_distances(std::span<double const>);
+/// Throws Error unless there are just as many as the span has room for.
+void unpack_distances(std::span<std::byte const>, std::span<double>);
 
 }   // namespace lore

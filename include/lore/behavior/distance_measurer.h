@@ -9,7 +9,7 @@
 namespace lore {
 
 /// Pool in, distances out: rows of their matrix, or by Euclidean kinds only means. Evolution measures through this
-/// interface; a cluster shares the rows among its ranks.
+/// interface; a cluster shares the members among its ranks.
 class DistanceMeasurer {
 public:
     virtual ~DistanceMeasurer() = default;

@@ -11,8 +11,13 @@ namespace lore {
 /// it for the next generation: a matrix does not pay.
 bool is_euclidean(DistanceKind);
 
-/// Mean distance of every member of a pool to the whole pool, itself included: BD(x), the means() of the pool's
-/// DistanceMatrix to the bit, without the matrix. Preconditions: is_euclidean(kind), and those of its distance.
-std::vector<double> mean_distances(DistanceKind kind, std::span<Descriptors const* const> pool);
+/// Mean distance of members [first, last) of a pool to the whole pool, each itself included: BD(x), as means() of the
+/// pool's DistanceMatrix has it to the bit, without the matrix. A pure function of the range, so that ranks can share
+/// the pool. Preconditions: is_euclidean(kind), those of its distance, and 0 <= first <= last <= pool.size().
+std::vector<double> mean_distances(DistanceKind, std::span<Descriptors const* const> pool, int first, int last);
+/// Of every member.
+inline std::vector<double> mean_distances(DistanceKind kind, std::span<Descriptors const* const> pool) {
+    return mean_distances(kind, pool, 0, static_cast<int>(pool.size()));
+}
 
 }   // namespace lore

@@ -120,7 +120,7 @@ void messages(Seeds const& seeds, Population const& population) {
         auto const kind = static_cast<DistanceKind>(k);
         seeds.write("messages", "pool_" + std::string{name(kind)}, 2, pack_pool(kind, 1, pool));
     }
-    seeds.write("messages", "distances", 3, pack_distances(3, 8, DistanceMatrix{8}));
+    seeds.write("messages", "distances", 3, pack_distances(std::vector<double>(25)));
 }
 
 void crates(Seeds const& seeds) {

@@ -28,8 +28,8 @@ void read_input(std::span<std::byte const> input) {
             break;
         }
         case 3: {
-            DistanceMatrix matrix{8};
-            unpack_distances(message, 3, 8, matrix);
+            std::vector<double> distances(25);
+            unpack_distances(message, distances);
             break;
         }
         }

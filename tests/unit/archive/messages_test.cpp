@@ -104,7 +104,7 @@ TEST(Messages, carry_what_a_distance_compares_and_the_rows_of_its_matrix) {
         unpack_pool(pack_pool(static_cast<DistanceKind>(kind), 5, pool), carried);   // where another pool was
         EXPECT_EQ(carried.known, 5);
         measure_rows(carried.kind, pointers_to(carried.members), 3, 9, there);
-        unpack_distances(pack_distances(3, 9, there), 3, 9, here);
+        unpack_distances(pack_distances(there.rows(3, 9)), here.rows(3, 9));
         EXPECT_EQ(here, expected) << kind;
     }
 }
@@ -148,10 +148,10 @@ TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
 
     auto const evaluations = PretendedEvaluator{100}.evaluate(pointers_to(genomes));
     Descriptors const* const members[]{&evaluations[0].descriptors, &evaluations[1].descriptors};
-    DistanceMatrix matrix{5};
-    Bytes const distances = pack_distances(2, 5, matrix);
+    std::vector<double> numbers(9);
+    Bytes const distances = pack_distances(numbers);
     for (std::size_t length = 0; length < distances.size(); ++length)
-        EXPECT_THROW(unpack_distances(std::span{distances}.first(length), 2, 5, matrix), Error);
+        EXPECT_THROW(unpack_distances(std::span{distances}.first(length), numbers), Error);
     ComparedPool carried;
     for (int kind = 0; kind < distance_kinds; ++kind) {
         Bytes const pool = pack_pool(static_cast<DistanceKind>(kind), 2, members);

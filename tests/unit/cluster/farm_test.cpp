@@ -4,6 +4,8 @@
 #include "share.h"
 #include "support/pointers.h"
 
+#include <lore/behavior/mean_distances.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -93,6 +95,21 @@ TEST(Farm, measures_every_distance_as_one_rank_does) {
             served.farm.distances().measure(kind, pool, known, matrix);
             EXPECT_EQ(matrix, expected) << name(kind) << " " << known;
         }
+    for (RankTimes const& rank : served.farm.stop()) EXPECT_GT(rank.distances, 0);
+}
+
+TEST(Farm, finds_every_mean_distance_as_one_rank_does) {
+    Served served;
+    auto const genomes = founders(30, 0);
+    auto const evaluations = evaluate_batch(context(), pointers_to(genomes));
+    for (int const size : {1, 30, 1000, 1201}) {   // from 1000 on they are shared
+        std::vector<Descriptors const*> pool;
+        while (static_cast<int>(pool.size()) < size)
+            pool.push_back(&evaluations[pool.size() * 7 % evaluations.size()].descriptors);
+        for (DistanceKind const kind : {DistanceKind::adhoc, DistanceKind::entropy})
+            EXPECT_EQ(served.farm.distances().means(kind, pool), mean_distances(kind, pool))
+                << name(kind) << " " << size;
+    }
     for (RankTimes const& rank : served.farm.stop()) EXPECT_GT(rank.distances, 0);
 }
 
