@@ -265,6 +265,10 @@ class Windows(LoreTest):
         (self.scratch / "scene.json").write_text(json.dumps(self.scene))
         self.expect_damaged(lambda: plot.figure5(self.scratch), self.scratch / "scene.json", "a window without length")
 
+    def test_of_a_figure_that_the_report_does_not_show_are_refused(self) -> None:
+        with self.assertRaisesRegex(ValueError, "no figure 6: name bases in .report. figure6"):
+            plot.figure6(self.scratch)
+
 
 @unittest.skipIf(plot is None, "matplotlib is not here")
 class Figures(LoreTest):

@@ -176,6 +176,10 @@ class Knowledge(LoreTest):
         base = lore.KnowledgeBase(path)
         self.assertEqual(len(base), 0)
         self.assertEqual(base.windows().shape, (0, 20, 15))
+        assert base.returns is not None and base.credit is not None
+        self.assertEqual(base.returns.why_invalid() + base.credit.why_invalid(), "")
+        nobody = np.empty(0, np.uint32)
+        self.assertEqual(lore.Contrast(1, 0, 0, nobody, nobody).why_invalid(), "")
 
 
 if __name__ == "__main__":

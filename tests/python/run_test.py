@@ -106,6 +106,19 @@ class ReadRun(LoreTest):
     def test_those_who_want_no_more_individuals_may_stop(self) -> None:
         self.assertEqual(next(iter(self.run_.everybody())).id, "0.0")
 
+    def test_individuals_can_be_gone_through_again(self) -> None:
+        exported = self.scratch / "everybody.jsonl"
+        exported.write_text(program("lore-kb", "individuals", self.directory / "all.lore"))
+        for everybody in (self.run_.everybody(), lore.Individuals(exported)):
+            self.assertEqual(next(iter(everybody)).id, "0.0")
+            ids = [one.id for one in everybody]
+            self.assertEqual(len(ids), 700)
+            self.assertEqual([one.id for one in everybody], ids)
+
+    def test_an_archive_of_all_is_no_lineage(self) -> None:
+        path = self.directory / "all.lore"
+        self.expect_damaged(lambda: lore.Lineage(path), path, "its kind is 'archive of all individuals'")
+
     def test_an_exported_lineage_needs_no_program(self) -> None:
         exported = self.scratch / "lineage.jsonl"
         exported.write_text(program("lore-kb", "individuals", self.directory))

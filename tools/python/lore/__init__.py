@@ -9,7 +9,8 @@
     lore.Campaign("runs/small").progress().frame()      # a row a treatment, run and generation
 
 A file that is there but cannot be read raises lore.Damaged, one that is not there FileNotFoundError. Lineages are read
-through the program lore-kb, found on PATH or in the directory LORE_BIN. lore.plot draws figures with matplotlib.
+through the program lore-kb, found in the directory LORE_BIN where it is set, else on PATH. lore.plot draws figures with
+matplotlib.
 """
 from .campaign import Campaign
 from .channels import BINARY, CHANNELS, CONTINUOUS, EFFECTORS, SENSORS

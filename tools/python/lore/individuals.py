@@ -25,7 +25,8 @@ GENE_SPAN, GENE_ORIGIN = np.float32(10), np.float32(-5)
 
 @dataclass(frozen=True, eq=False)
 class Genome:
-    """A controller: a directed graph of neurons, numbered inputs (0 .. 11), outputs (12 .. 14), hidden (15 ..)."""
+    """A controller: a directed graph of neurons, numbered in the order inputs, outputs, hidden; of collectball 0 .. 11,
+    12 .. 14, 15 and so on."""
 
     sources: NDArray[np.uint8]  #: (edges,), inputs or hidden
     targets: NDArray[np.uint8]  #: (edges,), outputs or hidden
@@ -47,8 +48,8 @@ class Genome:
 class Individual:
     id: str  #: GENERATION.SLOT of its birth; "" in a founders file
     parent: str | None  #: None for founders
-    reward: float | None  #: of its evaluation, whole where balls are counted; None where the file does not say, likewise
-    #: the next two
+    #: of its evaluation, whole where balls are counted; None where the file does not say, likewise the next two
+    reward: float | None
     shaping: float | None  #: largest value of the features it showed [reward unit], -1 without one
     diversity: float | None  #: in the joint ranking of the generation it was born in
     genome: Genome
@@ -67,6 +68,8 @@ class Individual:
 class Individuals:
     """The individuals of a file one after the other, in order of birth; memory does not grow with their number.
 
+    Each time that they are gone through, they come from the first on, and the file is read again.
+
     `header` is the file's first line: format, kind, individuals (their number), and what docs/manual/formats.md lists
     for each kind of file.
     """
@@ -77,29 +80,33 @@ class Individuals:
         """Of lineage.lore, all.lore, a founders file, failed-genome.lore, or a file with the output of
         `lore-kb individuals`. Raises Damaged, FileNotFoundError (also for lore-kb), RuntimeError."""
         self.path = os.fspath(path)
-        stored = is_container(path) or os.path.getsize(path) == 0
-        self._lines = output_lines("lore-kb", ["individuals", self.path], path) if stored else _lines_of(self.path)
-        self.header = self._parsed(next(self._lines, ""), 1)
-        if not isinstance(self.header.get("individuals"), int) or not isinstance(self.header.get("kind"), str):
-            raise Damaged(path, "it is not the output of 'lore-kb individuals'")
-        if self.header.get("format") != _FORMAT:
-            raise Damaged(
-                path, f"written by a newer Lore: format {self.header.get('format')}, this one reads {_FORMAT}"
-            )
+        self._opened: Iterator[str] | None = self._open()
 
     def __iter__(self) -> Iterator[Individual]:
-        """Once. Raises Damaged."""
-        number = 0
-        for number, line in enumerate(self._lines, 1):
+        """Raises as the constructor does."""
+        lines, self._opened = self._opened or self._open(), None
+        expected, number = self.header["individuals"], 0
+        for number, line in enumerate(lines, 1):
             document = self._parsed(line, number + 1)
             try:
                 yield _individual(document)
             except (KeyError, TypeError, ValueError, OverflowError) as error:
                 raise Damaged(self.path, f"line {number + 1} is damaged: {error}") from error
-        if number != self.header["individuals"]:
+        if number != expected:
+            raise Damaged(self.path, f"the file was cut: {number} individuals of {expected} are there")
+
+    def _open(self) -> Iterator[str]:
+        """Reads the header; the lines of the individuals follow."""
+        stored = is_container(self.path) or os.path.getsize(self.path) == 0
+        lines = output_lines("lore-kb", ["individuals", self.path], self.path) if stored else _lines_of(self.path)
+        self.header = self._parsed(next(lines, ""), 1)
+        if not isinstance(self.header.get("individuals"), int) or not isinstance(self.header.get("kind"), str):
+            raise Damaged(self.path, "it is not the output of 'lore-kb individuals'")
+        if self.header.get("format") != _FORMAT:
             raise Damaged(
-                self.path, f"the file was cut: {number} individuals of {self.header['individuals']} are there"
+                self.path, f"written by a newer Lore: format {self.header.get('format')}, this one reads {_FORMAT}"
             )
+        return lines
 
     def _parsed(self, line: str, number: int) -> dict[str, Any]:
         try:
@@ -130,7 +137,7 @@ class Lineage:
             self.last_population = [str(id) for id in source.header["last_population"]]
             self.generation = int(source.header["generation"])
         except (KeyError, TypeError, ValueError) as error:
-            raise Damaged(path, f"it is a {source.header['kind']}, not a lineage archive") from error
+            raise Damaged(path, f"it is no lineage archive, its kind is '{source.header['kind']}'") from error
         self.individuals = list(source)
         self._word = "reward" if "reward_unit" in source.header else "balls"
         if any(None in (one.reward, one.shaping, one.diversity) for one in self.individuals):
@@ -163,8 +170,8 @@ class Lineage:
         return line
 
     def table(self) -> Table:
-        """A row an individual: id, generation, parent ("" for founders), balls (of another unit: reward), shaping, diversity,
-        connections, hidden."""
+        """A row an individual: id, generation, parent ("" for founders), balls (of another unit: reward), shaping,
+        diversity, connections, hidden."""
         everyone = self.individuals
         outputs = int(self.header.get("outputs", 3))
         return Table({
@@ -202,10 +209,11 @@ def _individual(document: dict[str, Any]) -> Individual:
         raise ValueError("a number of balls that no evaluation gives")
     if not math.isfinite(document.get("reward") or 0):
         raise ValueError("a reward that is not finite")
+    balls = _typed(document.get("balls"), int, None)
     return Individual(
         _typed(document.get("id", ""), str),
         _typed(document.get("parent"), str, None),
-        _typed(document.get("balls"), int, None) if "balls" in document else _typed(document.get("reward"), float, int, None),
+        balls if "balls" in document else _typed(document.get("reward"), float, int, None),
         _typed(document.get("shaping"), float, int, None),
         _typed(document.get("diversity"), float, int, None),
         genome,

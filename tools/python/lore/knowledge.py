@@ -40,7 +40,7 @@ class Returns:
         gammas = self.gammas
         if not (gammas.min() > 0 and gammas.max() < 1 and np.all(np.diff(gammas) > 0)):
             return "its gammas are no increasing discounts"
-        if self.showings.min() == 0:
+        if self.showings.size and self.showings.min() == 0:
             return "a feature that nobody showed"
         return "" if _all_finite(self.sums) else "a feature's evidence is not finite"
 
@@ -71,7 +71,8 @@ class Contrast:
         """As Returns.why_invalid."""
         if not math.isfinite(self.success_reward):
             return "the reward of its successes is not finite"
-        too_many = self.successes_that_showed.max() > self.successes or self.failures_that_showed.max() > self.failures
+        shown = ((self.successes_that_showed, self.successes), (self.failures_that_showed, self.failures))
+        too_many = any(those.size and those.max() > everyone for those, everyone in shown)
         return "a feature that more have shown than there were" if too_many else ""
 
 
@@ -220,6 +221,8 @@ class KnowledgeBase:
 
 
 def _all_finite(numbers: NDArray[np.float64]) -> bool:
+    if numbers.size == 0:
+        return True
     return math.isfinite(numbers.min()) and math.isfinite(numbers.max())  # NaN passes through both
 
 

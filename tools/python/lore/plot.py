@@ -111,7 +111,8 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
     step = 1 if counted else (most - min((of_one.min() for of_one in rewards), default=0)) / 8 or 1  # between brackets
     for low, high, mark, level in _brackets(report, treatments):
         y = most + (0.5 + 0.45 * level) * step
-        axes.plot([low + 0.05, low + 0.05, high - 0.05, high - 0.05], [y - 0.1 * step, y, y, y - 0.1 * step], color="#222222", lw=0.8)
+        axes.plot([low + 0.05, low + 0.05, high - 0.05, high - 0.05], [y - 0.1 * step, y, y, y - 0.1 * step],
+                  color="#222222", lw=0.8)  # fmt: skip
         axes.text((low + high) / 2, y, mark, ha="center", va="center_baseline",
                   bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})  # fmt: skip
     return figure
@@ -119,12 +120,12 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
 
 def figure5(report: Report | FilePath) -> Figure:
     """The trajectory of a source run's best robot, colored by the values of knowledge bases, a panel each, with the
-    values over time. Raises FileNotFoundError where the report has no replay."""
+    values over time. Raises FileNotFoundError where the report has no replay, ValueError where it shows no figure 5."""
     return _panels(_report(report), "figure5")
 
 
 def figure6(report: Report | FilePath) -> Figure:
-    """The same, colored by the product of the values of several knowledge bases."""
+    """The same, colored by the product of the values of several knowledge bases. Raises likewise."""
     return _panels(_report(report), "figure6")
 
 
@@ -220,8 +221,10 @@ def _panels(report: Report, figure_name: str) -> Figure:
     if len(steps) == 0:
         raise Damaged(os.path.join(report.path, "replay.csv"), f"it has no step of '{name}'")
     bases = list(dict.fromkeys(values["knowledge"].tolist()))
-    figure = Figure(figsize=(8.5, 7.4 * max(1, len(bases))), layout="constrained")
-    parts = figure.subfigures(len(bases), 1, squeeze=False)[:, 0] if bases else []
+    if not bases:
+        raise ValueError(f"the report shows no figure {figure_name[-1]}: name bases in [report] {figure_name}")
+    figure = Figure(figsize=(8.5, 7.4 * len(bases)), layout="constrained")
+    parts = figure.subfigures(len(bases), 1, squeeze=False)[:, 0]
     lengths = report.window_lengths
     for place, (part, base) in enumerate(zip(parts, bases)):
         label = " \u00d7 ".join(names.get(one, one) for one in base.split("*"))

@@ -153,7 +153,8 @@ class Run:
 
     @property
     def arena(self) -> dict[str, Any]:
-        """The arena's file; lengths in u, y downwards. Raises Damaged, FileNotFoundError."""
+        """The arena's file, of a run in an arena; lengths in u, y downwards. Other worlds have none. Raises Damaged,
+        FileNotFoundError."""
         return read_toml(self._checked("arena.toml"))
 
     def progress(self) -> Table:
