@@ -4,15 +4,16 @@
     tests/compatibility/release.py record --programs build/release/bin     makes the set of this version in tests/data
     tests/compatibility/release.py check tests/data/release-1.0.0 --programs build/release/bin
 
-A set is made once, when its release is made (docs/manual/versions.md), and never changed. It has lists, a name a line, of
-which each must be in what this Lore has (additions are free), and files, which this Lore must read:
+A set is made once, when its release is made (docs/manual/versions.md), and never changed. It has lists, a name a line,
+of which each must be in what this Lore has (additions are free), and files, which this Lore must read:
 
     commands.txt         programs, commands, options              settings.txt   configuration keys
     columns.txt          columns of tables, keys of JSON          python.txt     names of the package lore
     headers.txt          of the C++ library                       world_layout.txt   sizes and offsets of lore/world.h
     include/, world.c    lore/world.h and a world: one that was compiled for that release still keeps the contract
-    program.cpp          a program for the C++ library            stopped-run/   goes on to the signature in signature.txt
-    base.lorekb          a knowledge base                 jobs/  campaigns and tasks, which can still be planned
+    program.cpp          a program for the C++ library    base.lorekb   a knowledge base
+    stopped-run/         goes on to the signature in signature.txt
+    jobs/                campaigns and tasks, which can still be planned
 
 Prints one line for each thing that went missing, and returns 1, or says what holds.
 """
@@ -203,15 +204,18 @@ def columns(programs, work):
     run(programs / "lore-kb", "product", base, base, "--run", one, "--csv", work / "product.csv", "-q")
     run(programs / "lore-kb", "export", base, "--csv", work / "export.csv", "-q")
     found = []
-    tables = [one / "progress.csv", work / "replay/trace.csv", *sorted(work.glob("*.csv")), *sorted(work.glob("c/*.csv")),
+    tables = [one / "progress.csv", work / "replay/trace.csv",
+              *sorted(work.glob("*.csv")), *sorted(work.glob("c/*.csv")),
               work / "m/matrix.csv", work / "z/runs/source/001/progress.csv", *sorted(work.glob("z/*.csv"))]
     for table in tables:
         with open(table, newline="") as file:
             found += [f"{table.name} {column}" for column in next(csv.reader(file))
                       if table.name != "export.csv" or not re.search(r"_([1-9]|1\d)$", column)]  # of step 0 alone
-    for document in (one / "manifest.json", work / "z/runs/source/001/manifest.json", *sorted(work.glob("[cz]/s*.json"))):
+    manifests = (one / "manifest.json", work / "z/runs/source/001/manifest.json")
+    for document in (*manifests, *sorted(work.glob("[cz]/s*.json"))):
         found += keys(json.loads(document.read_text()), document.name)
-    lines = {"individuals": run(programs / "lore-kb", "individuals", one), "events": run(programs / "lore-campaign", "events", work / "c")}
+    lines = {"individuals": run(programs / "lore-kb", "individuals", one),
+             "events": run(programs / "lore-campaign", "events", work / "c")}
     for name, text in lines.items():
         for line in text.splitlines():
             value = json.loads(line)
@@ -229,11 +233,13 @@ def python_names():
     for module in map(importlib.import_module, ("lore", "lore_world")):
         for name in getattr(module, "__all__", None) or [name for name in vars(module) if not name.startswith("_")]:
             thing = getattr(module, name)
-            if inspect.ismodule(thing) or getattr(thing, "__module__", "lore").split(".")[0] not in ("lore", "lore_world"):
+            home = getattr(thing, "__module__", "lore").split(".")[0]
+            if inspect.ismodule(thing) or home not in ("lore", "lore_world"):
                 continue
             found.append(f"{module.__name__}.{name}")
             members = [*vars(thing), *getattr(thing, "__annotations__", {})] if inspect.isclass(thing) else []
-            found += [f"{module.__name__}.{name}.{member}" for member in dict.fromkeys(members) if not member.startswith("_")]
+            found += [f"{module.__name__}.{name}.{member}" for member in dict.fromkeys(members)
+                      if not member.startswith("_")]
     plot = (SOURCE / "tools/python/lore/plot.py").read_text()
     return found + [f"lore.plot.{name}" for name in re.findall(r"^def ([a-z]\w*)", plot, re.M)]
 
@@ -244,14 +250,16 @@ def headers():
 
 def world_layout(work):
     """'lore_facts.width 64 4', a line a size and an offset, as the C compiler lays lore/world.h out."""
-    run("cc", "-std=c99", "-I", SOURCE / "include", SOURCE / "tests/compatibility/world_layout.c", "-o", work / "layout")
+    run("cc", "-std=c99", "-I", SOURCE / "include", SOURCE / "tests/compatibility/world_layout.c",
+        "-o", work / "layout")
     return run(work / "layout").splitlines()
 
 
 def lists(programs, work):
     """All lists, by the name of their file."""
     found = {"columns.txt": columns(programs, work)}
-    return found | {"commands.txt": commands(programs), "settings.txt": settings(work / "c/runs/source/001/config.toml"),
+    return found | {"commands.txt": commands(programs),
+                    "settings.txt": settings(work / "c/runs/source/001/config.toml"),
                     "python.txt": python_names(), "headers.txt": headers(), "world_layout.txt": world_layout(work)}
 
 
@@ -277,7 +285,8 @@ def record(place, programs, work):
                              capture_output=True)
     if stopped.returncode != 75:
         raise Failure(f"the run was to stop, and ended with {stopped.returncode}")
-    names = [file.name for file in (work / "stopped-run").iterdir() if file.name not in ("lock", "checkpoint-older.lore")]
+    names = [file.name for file in (work / "stopped-run").iterdir()
+             if file.name not in ("lock", "checkpoint-older.lore")]
     (place / "stopped-run").mkdir()
     for name in names:
         shutil.copy(work / "stopped-run" / name, place / "stopped-run")
@@ -297,8 +306,9 @@ def missing(place, programs, work):
     for file in sorted(now):
         gone = [line for line in (place / file).read_text().splitlines() if line not in set(now[file])]
         yield from (f"{release} has '{line}' ({file}), and this Lore has not" for line in gone)
-    for what, test in (("the world that was compiled for it", old_world), ("its program for the C++ library", old_program),
-                       ("its stopped run", old_run), ("its knowledge base", old_base), ("its campaigns", old_campaigns)):
+    for what, test in (("the world that was compiled for it", old_world),
+                       ("its program for the C++ library", old_program), ("its stopped run", old_run),
+                       ("its knowledge base", old_base), ("its campaigns", old_campaigns)):
         try:
             test(place, programs, work)
         except Failure as failure:
@@ -321,8 +331,8 @@ def old_run(place, programs, work):
     shutil.copy(place / "stopped-run/arena.toml", work / "arenas/collectball.toml")
     shutil.copy(place / "stopped-run.toml", work)
     run(programs / "lore-kb", "verify", work / "old-run")
-    said = run(programs / "lore-evolve", "stopped-run.toml", "--seed", "5", "--archive", "all", "-q", "--resume", "--out", "old-run",
-               cwd=work).splitlines()[-1]
+    said = run(programs / "lore-evolve", "stopped-run.toml", "--seed", "5", "--archive", "all", "-q", "--resume",
+               "--out", "old-run", cwd=work).splitlines()[-1]
     expected = (place / "signature.txt").read_text().strip()
     if said != expected:
         raise Failure(f"it ends with '{said}', not '{expected}'")

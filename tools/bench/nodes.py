@@ -114,7 +114,8 @@ class Nodes:
     def _make_all(self):
         self.scratch = tempfile.TemporaryDirectory()
         agent = pathlib.Path(self.scratch.name, "agent")   # in the place of ssh: agent HOST COMMAND...
-        agent.write_text('#!/bin/sh\nhost=$1\nshift\nexec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"\n')
+        agent.write_text('#!/bin/sh\nhost=$1\nshift\n'
+                         'exec ip netns exec "$host" unshare --uts sh -c "hostname $host; $*"\n')
         agent.chmod(0o700)
         self.agent = str(agent)
         taps = [self._make(number, name) for number, name in enumerate(self.names)]
@@ -157,7 +158,8 @@ def _stops_waiting():
 def _ip(words, lines=None):
     done = subprocess.run(["ip", *words], input=lines, capture_output=True, text=True, check=False)
     if done.returncode:
-        raise Refusal(f"'ip {' '.join(words)}' failed ({done.stderr.strip()}). Run it as root on a machine of your own.")
+        raise Refusal(f"'ip {' '.join(words)}' failed ({done.stderr.strip()}). "
+                      "Run it as root on a machine of your own.")
 
 
 def _hardware(number):

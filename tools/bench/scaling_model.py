@@ -104,8 +104,8 @@ class Measured:
         return evaluating + handed_on + distances / ranks + back + rest, shared + distances / ranks
 
     def on_nodes(self, ranks, name):
-        """Seconds of a generation of the source task on nodes that share this machine's processors. What a message costs
-        there, where one machine is sender, switch and receiver, is taken from the runs without delay."""
+        """Seconds of a generation of the source task on nodes that share this machine's processors. What a message
+        costs there, where one machine is sender, switch and receiver, is taken from the runs without delay."""
         def seconds(network, message):
             return self.generation("source", ranks, network=network, message=message, processors=self.processors)
         least, most = 0.0, 1e-3

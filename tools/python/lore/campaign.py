@@ -53,8 +53,8 @@ class Campaign:
             for number, run in self.runs(treatment).items()
         ]
         rows = [
-            (treatment, number, of.seed, of.status, of.generation, of.generations, of.best_reward, of.best, of.signature)
-            for treatment, number, of in found
+            (name, number, of.seed, of.status, of.generation, of.generations, of.best_reward, of.best, of.signature)
+            for name, number, of in found
         ]
         counted = all(of.world.get("reward_unit", "balls") == "balls" for _, _, of in found)
         best, kind = ("best_balls", np.int64) if counted else ("best_reward", np.float64)

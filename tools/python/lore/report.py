@@ -136,7 +136,8 @@ class Report:
     def shown(self, task: str | None = None) -> list[str]:
         """The names of treatments and pools that figures 3 and 4 show, of one of `tasks` or of all."""
         there = dict.fromkeys(self.final["treatment"].tolist())
-        names = [str(name) for name in self.summary.get("figure3", [])] if os.path.exists(self._file("summary.json")) else []
+        summary = self.summary if os.path.exists(self._file("summary.json")) else {}
+        names = [str(name) for name in summary.get("figure3", [])]
         if not names:
             names = list(dict.fromkeys([*(name for name in self.labels if name in there), *there]))
         targets = self.tasks[task] if task is not None else [name for name in there if name not in self.sources]
@@ -150,8 +151,8 @@ class Report:
 
     @property
     def curves(self) -> Table:
-        """treatment (or a pool that figure 3 shows), generation, runs, mean of the best-of-runs [reward unit], low, high
-        (95 % bootstrap band)."""
+        """treatment (or a pool that figure 3 shows), generation, runs, mean of the best-of-runs [reward unit], low,
+        high (95 % bootstrap band)."""
         return self._table("curves.csv", treatment="text", generation="int", runs="int", mean="float", low="float",
                            high="float")  # fmt: skip
 
@@ -199,8 +200,9 @@ class Report:
 
     @property
     def values(self) -> Table:
-        """The values of figures 5 and 6, a row a whole window: figure, knowledge, window, value. One that is not found is
-        nan; in arenas of files made before 1.0.0, whose panels are not among window_lengths, -1, or 0 of a product."""
+        """The values of figures 5 and 6, a row a whole window: figure, knowledge, window, value. One that is not found
+        is nan; in arenas of files made before 1.0.0, whose panels are not among window_lengths, -1, or 0 of a product.
+        """
         return self._with_gaps("values.csv", ("value",), figure="text", knowledge="text", window="int")
 
     @property
@@ -239,8 +241,8 @@ class Report:
 
     @property
     def labels(self) -> dict[str, str]:
-        """The label of each treatment, in the order of figures, the source's first, and pool; the name of each knowledge
-        base.
+        """The label of each treatment, in the order of figures, the source's first, and pool; the name of each
+        knowledge base.
 
         Where summary.json is missing, the names of treatments serve as labels, in the order of final.csv.
         """
@@ -266,7 +268,8 @@ class Report:
         arrays: dict[str, NDArray[Any]] = {column: table[column] for column in table}
         for column in numbers:
             fields = arrays[column]
-            numbers_there = parse_table("\n".join([column, *fields[fields != ""], ""]), self._file(name), {column: "float"})
+            text = "\n".join([column, *fields[fields != ""], ""])
+            numbers_there = parse_table(text, self._file(name), {column: "float"})
             arrays[column] = np.full(len(fields), np.nan)
             arrays[column][fields != ""] = numbers_there[column]
         return Table(arrays)

@@ -39,7 +39,7 @@ class Trace(Table):
         return np.stack([self[name].astype(np.float32) for name in names], axis=1)
 
     def windows(self, length: int) -> NDArray[np.float32]:
-        """(m, length, channels): the windows of a knowledge base, one after the other; the steps left over are left out."""
+        """(m, length, channels): the windows of a knowledge base, one after the other, without the steps left over."""
         whole = len(self) // length
         return self.channels[: whole * length].reshape(whole, length, -1)
 
