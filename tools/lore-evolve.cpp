@@ -108,20 +108,20 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     std::uint64_t seed = 1;
     auto* const seed_option =
         app.add_option("--seed", seed, "of all random numbers (default 1)")->type_name("N")->check(seed_digits);
-    app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+    take_one_a_time(app.add_option("--set", line.run.overrides, "overrides a setting: section.key=value (repeatable)")
+                        ->type_name("KEY=VALUE"));
     app.add_option("--kb", line.run.knowledge_base, "knowledge base that shapes the reward")->type_name("FILE");
     std::vector<std::string> founders;
     app.add_option("--founders", founders,
-                   "knowledge bases to clone founders from, founders files, or runs whose last populations they come "
-                   "from; several, all that follow, share alike: --set founders.from=FILE")
+                   "knowledge base to clone founders from, founders file, or run whose last population they come "
+                   "from; several may follow, in equal shares (the same as --set 'founders.from=[\"A\",\"B\"]')")
         ->type_name("FILE|DIR");
     app.add_flag("--resume", line.run.resume, "go on from the directory's checkpoint; without one, start");
-    app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time")->type_name("HH:MM:SS");
+    app.add_option("--max-time", line.max_time, "stop at a checkpoint after this time: HH:MM:SS, MM:SS or seconds")
+        ->type_name("TIME");
     app.add_option("--archive", line.archive, "keep the ancestors of the last population, or everybody ever evaluated")
         ->check(CLI::IsMember({"lineage", "all"}))
-        ->type_name("lineage|all");
+        ->capture_default_str();
     app.add_flag("--bench", line.bench, "print the signature of a small fixed run and the steps simulated per second");
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);

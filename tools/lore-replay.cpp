@@ -206,9 +206,8 @@ int run(int argc, char** argv) {
     app.add_option("RUN_DIR", arguments.run,
                    "directory of a run; writes trace.csv and trajectory.svg, .png into --out");
     app.add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
-    app.add_option("--kb", arguments.knowledge,
-                   "knowledge base whose values color the trajectory; several: their product")
-        ->allow_extra_args(false);
+    take_one_a_time(app.add_option("--kb", arguments.knowledge,
+                                   "knowledge base whose values color the trajectory (repeatable: their product)"));
     app.add_option("--actions", arguments.actions,
                    "CSV with the columns a0, a1, a2: drives the robot of an arena open loop");
     app.add_option("--follow", arguments.follow,

@@ -29,6 +29,12 @@ inline CLI::Validator const seed_digits{
     },
     ""};
 
+/// Makes an option of several values take one each time it is given. In the help, "..." is of those that take all that
+/// follows.
+inline void take_one_a_time(CLI::Option* option) {
+    option->allow_extra_args(false)->option_text(option->get_type_name());
+}
+
 /// An option whose value is empty comes from a variable that is not set; as if it were not there, it would change what
 /// is done without a word.
 inline void refuse_empty_values(CLI::App const& app) {

@@ -84,6 +84,13 @@ TEST_F(FirstRun, with_a_misspelt_option_is_told_the_right_one) {
     expect_refusal("jobs/tasks/source.toml --oot never", 2, "Did you mean '--out'? See 'lore-evolve --help'.");
 }
 
+TEST_F(FirstRun, is_told_which_options_take_one_value_and_which_all_that_follow) {
+    std::string const help = run("--help").output;
+    EXPECT_THAT(help, HasSubstr("--set KEY=VALUE  "));
+    EXPECT_THAT(help, HasSubstr("--founders FILE|DIR ...  "));
+    EXPECT_THAT(help, HasSubstr("HH:MM:SS, MM:SS or seconds"));
+}
+
 TEST_F(FirstBase, without_or_with_a_misspelt_command_is_told_the_commands) {
     expect_refusal("", 2, "a command is expected: build, info, query");
     expect_refusal("biuld", 2, "Did you mean 'build'?");

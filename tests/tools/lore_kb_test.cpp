@@ -125,6 +125,7 @@ TEST_F(LoreKb, clones_founders_and_says_how_well_they_fit) {
     EXPECT_EQ(told.exit_code, 0) << told.errors;
     EXPECT_THAT(told.output, HasSubstr("wrote a.lore: 3 founders, each fitted to 20 windows"));
     EXPECT_THAT(told.output, HasSubstr("left_wheel"));
+    EXPECT_THAT(told.output, HasSubstr("cross-entropy [nats]"));
     auto const json = nlohmann::json::parse(
         run("clone kb.lorekb --count 3 --windows 20 --seed 1 --hidden 2 --out hidden.lore --json").output);
     EXPECT_EQ(json.at("hidden"), 2);
@@ -408,5 +409,7 @@ TEST_F(LoreKb, leaves_the_former_file_where_a_build_fails) {
 TEST_F(LoreKb, explains_itself) {
     EXPECT_THAT(run("--help").output, HasSubstr("Examples"));
     EXPECT_THAT(run("build --help").output, HasSubstr("--individual"));
+    EXPECT_THAT(run("product --help").output, HasSubstr("KB..."));   // one or more
+    EXPECT_THAT(run("reduce --help").output, HasSubstr("--consensus TEXT ..."));
     EXPECT_THAT(run("--version").output, StartsWith("lore-kb "));
 }

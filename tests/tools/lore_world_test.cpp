@@ -135,7 +135,9 @@ TEST_F(LoreWorld, shows_the_facts_as_text_and_json) {
     EXPECT_EQ(told.at("sensors").at(2).at("name"), "turning");
     EXPECT_EQ(told.at("library").at("checksum"), checksum_text(checksum_of_file(c_world("pendulum"))));
     EXPECT_THAT(run("info trial").output, HasSubstr("3: phase, flag (binary), echo\n"));
-    EXPECT_THAT(run("info collectball").output, HasSubstr("library      none: it is built in\n"));
+    std::string const of_collectball = run("info collectball").output;
+    EXPECT_THAT(of_collectball, HasSubstr("library      none: it is built in\n"));
+    EXPECT_THAT(of_collectball, HasSubstr("size         600 x 400.34 u\n"));
 }
 
 TEST_F(LoreWorld, refuses_what_is_no_world) {

@@ -24,13 +24,12 @@ void pack_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--out", arguments.out,
                    "the archive, .tar.zst, .tar.gz or .zip (default: describe --dir itself, as it lies there)")
         ->type_name("FILE");
-    app.add_option("--leave-out", arguments.leave_out,
-                   "individuals (archives of all), checkpoints, bases or logs; repeatable")
-        ->allow_extra_args(false);
+    take_one_a_time(app.add_option("--leave-out", arguments.leave_out,
+                                   "individuals (archives of all), checkpoints, bases or logs (repeatable)"));
     PackOptions& pack = arguments.pack;
     app.add_option("--license", pack.license, "of the data: an SPDX identifier, a URL or a sentence");
-    app.add_option("--author", pack.authors, "\"Ada Lovelace <https://orcid.org/...>\", or the name alone; repeatable")
-        ->allow_extra_args(false);
+    take_one_a_time(app.add_option("--author", pack.authors,
+                                   "\"Ada Lovelace <https://orcid.org/...>\", or the name alone (repeatable)"));
     app.add_option("--description", pack.description, "what the data are about");
     app.add_option("--date", pack.date, "of publication, YYYY-MM-DD (default: the day the last run ended)");
 }

@@ -30,7 +30,7 @@ void run_options(CLI::App& app, Arguments& arguments) {
     app.add_option("-j,--jobs", arguments.jobs, "steps at a time (default: cores / ranks)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--only", arguments.runner.only,
-                   "only these steps or groups, all that follow, such as source, source/007 or knowledge/kb1");
+                   "one or more steps or groups, and no others: source, source/007, knowledge/kb1");
 }
 
 /// Found before the first run fails for it.

@@ -13,13 +13,14 @@ namespace {
 void submit_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
     add_launcher(app, arguments);
-    app.add_option("--time", arguments.time_limit, "limit of a task, HH:MM:SS (default: the campaign's)");
+    app.add_option(
+        "--time", arguments.time_limit,
+        "limit of a task: HH:MM:SS; a number alone is minutes, as sbatch reads it (default: the campaign's)");
     app.add_option("--concurrent", arguments.concurrent,
                    "most tasks of a treatment at a time (default: the campaign's)")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--sbatch", arguments.cluster_options,
-                   "a further #SBATCH option, such as --partition=long; repeatable")
-        ->allow_extra_args(false);
+    take_one_a_time(app.add_option("--sbatch", arguments.cluster_options,
+                                   "a further #SBATCH option, such as --partition=long (repeatable)"));
     app.add_flag("--only-write", arguments.only_write, "write the scripts, submit nothing");
 }
 

@@ -118,12 +118,12 @@ void add_build(CLI::App& app, Program& program) {
     add_value(command, options->value, options->gamma, false);
     command
         ->add_option("--gammas", options->gammas,
-                     "discounts whose returns are gathered, so that revalue can choose among them")
-        ->expected(1, static_cast<int>(most_gammas))
+                     "one or more discounts whose returns are gathered, so that revalue can choose among them")
         ->capture_default_str();
     command
         ->add_option("--success", options->success,
-                     "of contrast: so much reward makes a success; default: half of what the best got")
+                     "of contrast: so much reward makes a success; default: half of what the best got (of a whole "
+                     "number rounded up, at least 1)")
         ->check(a_finite_number)
         ->needs(all);
 }

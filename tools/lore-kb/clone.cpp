@@ -37,10 +37,10 @@ Json to_json(Channels const& channels, Fits const& fits) {
 }
 
 void print_fit(Channels const& channels, Clones const& clones) {
-    fmt::print("{:<12} {:>14} {:>14} {:>15} {:>14}\n", "effector", "cross-entropy", "of a constant", "absolute error",
-               "of a constant");
+    fmt::print("{:<12} {:>20} {:>14} {:>15} {:>14}\n", "effector", "cross-entropy [nats]", "of a constant",
+               "absolute error", "of a constant");
     for (std::size_t e = 0; e < clones.fit.size(); ++e)
-        fmt::print("{:<12} {:14.4f} {:14.4f} {:15.4f} {:14.4f}\n", name_of(channels, e), clones.fit[e].cross_entropy,
+        fmt::print("{:<12} {:20.4f} {:14.4f} {:15.4f} {:14.4f}\n", name_of(channels, e), clones.fit[e].cross_entropy,
                    clones.constant[e].cross_entropy, clones.fit[e].absolute_error, clones.constant[e].absolute_error);
 }
 

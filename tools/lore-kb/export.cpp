@@ -32,7 +32,8 @@ void export_base(Program const& program, ExportOptions const& options) {
 void add_export(CLI::App& app, Program& program) {
     auto const options = std::make_shared<ExportOptions>();
     CLI::App* const command =
-        add_command(app, program, "export", "Write the features for other programs", options, export_base);
+        add_command(app, program, "export", "Write the features for other programs: exactly one of --npy and --csv",
+                    options, export_base);
     add_base(command, options->base);
     command->add_option(
         "--npy", options->npy,

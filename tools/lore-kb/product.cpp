@@ -56,7 +56,7 @@ void add_product(CLI::App& app, Program& program) {
     CLI::App* const command =
         add_command(app, program, "product", "Multiply the values of several knowledge bases along an evaluation",
                     options, product);
-    command->add_option("KB", options->bases, "knowledge bases")->required()->expected(1, 1000);
+    command->add_option("KB", options->bases, "one or more knowledge bases")->required();
     command->add_option("--run", options->run, "run whose individual is evaluated")->required();
     add_individual(command, options->individual);
     command->add_option("--csv", options->csv, "file to write: window,step,product,value_1,value_2,...")->required();

@@ -57,7 +57,8 @@ void query(Program const& program, QueryOptions const& options) {
 
 void add_query(CLI::App& app, Program& program) {
     auto const options = std::make_shared<QueryOptions>();
-    CLI::App* const command = add_command(app, program, "query", "Look windows up", options, query);
+    CLI::App* const command =
+        add_command(app, program, "query", "Look windows up: of exactly one of --run and --windows", options, query);
     add_base(command, options->base);
     command->add_option("--run", options->run, "windows of an individual of this run");
     add_individual(command, options->individual);

@@ -42,14 +42,17 @@ void reduce(Program const& program, ReduceOptions const& options) {
 
 void add_reduce(CLI::App& app, Program& program) {
     auto const options = std::make_shared<ReduceOptions>();
-    CLI::App* const command = add_command(app, program, "reduce", "Keep some of the features", options, reduce);
+    CLI::App* const command =
+        add_command(app, program, "reduce",
+                    "Keep some of the features: by exactly one of --top, --min-value, --min-count and --consensus",
+                    options, reduce);
     add_base(command, options->base);
     command->add_option("--top", options->top, "this many of highest value")->check(CLI::Range(1, 1000000000));
     command->add_option("--min-value", options->least_value, "those of at least this value")->check(a_number);
     command->add_option("--min-count", options->least_count, "those that at least so many individuals have shown")
         ->check(CLI::Range(1, 1000000000));
-    command->add_option("--consensus", options->consensus, "those that every one of these knowledge bases knows")
-        ->expected(1, 1000);
+    command->add_option("--consensus", options->consensus,
+                        "those that each of one or more other knowledge bases knows");
     add_out(command, options->out);
 }
 

@@ -61,7 +61,7 @@ void print_text(OpenedWorld const& opened) {
     WorldOrigin const& origin = opened.origin;
     fmt::print("world        {}\ntask         {}\nreward       {}\nsensors      {}\neffectors    {}\n", facts.name,
                facts.task, facts.reward_unit, listed(facts.sensors), listed(facts.effectors));
-    fmt::print("outcome      {} numbers\nsize         {} x {}\nmax batch    {}\nscene        {} bytes\n",
+    fmt::print("outcome      {} numbers\nsize         {} x {} u\nmax batch    {}\nscene        {} bytes\n",
                facts.outcome_size, facts.width, facts.height, facts.max_batch, opened.world->scene_svg().size());
     for (std::size_t at = 0, end; at < origin.settings.size(); at = end + 1) {
         end = origin.settings.find('\n', at);
