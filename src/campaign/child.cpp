@@ -43,7 +43,7 @@ pid_t start_child(std::vector<std::string> const& command, std::string const& lo
         throw Error("cannot start another program", std::strerror(reason), "Start fewer at a time with --jobs.");
     }
     if (pid == 0) {
-        // Only what is safe between fork and exec.
+        // Only what is safe between fork and exec, but for strerror once exec has failed.
         ::setpgid(0, 0);
         give_signals_back();
         int const nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);

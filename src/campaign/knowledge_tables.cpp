@@ -115,8 +115,8 @@ void add_knowledge(TomlTable const& table, KnowledgePlan knowledge, CampaignPlan
     knowledge.source = source_of(table, knowledge, plan);
     Treatment const& source = plan.treatment(knowledge.source);
     if (knowledge.run > source.runs)
-        table.fail("run", fmt::format("there are only {} {} runs", source.runs, source.name),
-                   "Name one of them, or raise their number.");
+        table.fail("run", fmt::format("the last {} run is {}", source.name, source.runs),
+                   "Name that or an earlier one, or raise the number of runs.");
     if (knowledge.kind == KnowledgeKind::revalued) ask_for_evidence(table, knowledge, plan);
     plan.knowledge.push_back(std::move(knowledge));
 }

@@ -10,7 +10,7 @@ namespace lore {
 /// build with AddressSanitizer, which keeps what is freed.
 struct MemoryGrowth {
     std::string what;       ///< "by 4096 bytes a batch of 16 lives"; "" if it does not
-    std::string measured;   ///< "600 batches of 16 lives and 20 steps"
+    std::string measured;   ///< "800 batches of 16 lives and 20 steps"
 };
 MemoryGrowth memory_growth(World const&, int lives);
 

@@ -5,7 +5,7 @@
 namespace lore {
 
 /// Knowledge bases made from knowledge bases. Each returns a new one with the old one's provenance, to whose derivation
-/// it adds a line; kind becomes "random", "permuted" or "reduced". Evidence goes with its features.
+/// it adds a line; kind becomes "random", "permuted" or "reduced", but for revalue. Evidence goes with its features.
 
 /// "KB random": values uniform between the smallest and the largest value of `base`, drawn in the order of the
 /// features from the stream (seed, randomize).

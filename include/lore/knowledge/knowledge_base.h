@@ -14,7 +14,7 @@ namespace lore {
 /// Where a knowledge base came from; goes into its file and is shown by `lore-kb info`.
 struct Provenance {
     std::string made_by;                   ///< command line and version
-    std::string kind;                      ///< "lineage", "all", "random", "permuted", "reduced"
+    std::string kind;                      ///< "lineage", "all", "random", "permuted", "reduced", "revalued"
     std::string index;                     ///< "exact" or "flann": the index that found the matches while building
     std::vector<std::string> sources;      ///< runs or knowledge bases it was made from
     std::vector<std::string> derivation;   ///< what was done to it since it was built, in order

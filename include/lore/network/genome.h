@@ -48,7 +48,7 @@ struct Edge {
 
 /// A controller as evolution sees it: a directed graph in a direct encoding (paper, "Robot controller").
 ///
-/// Invariants (is_valid): sources are inputs or hidden, targets are outputs or hidden, no two edges share both ends,
+/// Invariants (why_invalid): sources are inputs or hidden, targets are outputs or hidden, no two edges share both ends,
 /// genes in [0, 1]. The order of the edges is part of the genome: mutation walks them in it.
 struct Genome {
     Interface interface;

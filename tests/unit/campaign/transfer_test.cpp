@@ -190,7 +190,7 @@ TEST_F(Transfer, refuses_mistakes_in_one_line_that_helps) {
     expect("method = \"clone\"\n", "", "method");
     expect("method = \"clone\"", "method = \"policy\"", "not features");
     expect("top = 10", "topp = 10", "Did you mean 'transfer.top'");
-    expect("top = 10", "run = 3", "there are only 2 pole runs");
+    expect("top = 10", "run = 3", "the last pole run is 2");
     expect("set = [\"evolution.ties=older\"]\n", "", "target task 'pole' would be runs of source 'pole' again");
     expect(transfer, "", "no treatment has the target task 'arena'");
     expect(transfer, transfer + hand("target = \"pol\""), "Did you mean 'pole'");

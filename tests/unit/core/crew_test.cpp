@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -34,18 +37,23 @@ private:
     std::atomic<bool> shared_number_{false};
 };
 
-/// Work of two items, each of which is done only while another thread does the other.
+/// Work of two items, each of which is done only while another thread does the other; who is left alone fails the test.
 class Meeting {
 public:
     Crew::Work work() {
         return [this](std::size_t, std::size_t, std::size_t) {
+            std::unique_lock lock{mutex_};
             ++present_;
-            while (present_ < 2) std::this_thread::yield();
+            changed_.notify_all();
+            EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds{20}, [this] { return present_ == 2; }))
+                << "nobody else has come";
         };
     }
 
 private:
-    std::atomic<int> present_{0};
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    int present_ = 0;
 };
 
 }   // namespace
@@ -66,7 +74,7 @@ TEST(Crew, does_every_item_once_whatever_the_threads_and_the_shares) {
 TEST(Crew, has_threads_of_its_own_that_join_in) {
     Crew crew{2};
     Meeting meeting;
-    crew.share(2, 1, meeting.work());   // would not end otherwise
+    crew.share(2, 1, meeting.work());
 }
 
 TEST(Crew, is_joined_by_a_guest_that_comes_by) {
@@ -88,7 +96,7 @@ TEST(Crew, is_joined_by_a_guest_that_waits_until_it_is_woken_and_has_something_e
         crew.assist_until([&] { return enough.load(); });
         left = true;
     }};
-    for (int time = 0; time < 100; ++time) {
+    for (int time = 0; time < 100 && !HasFailure(); ++time) {
         Meeting meeting;
         crew.share(2, 1, meeting.work());
     }

@@ -231,7 +231,7 @@ TEST(Evolve, uses_the_objectives_of_the_treatment) {
     EXPECT_GT(reward_alone.population.members[0].diversity, 0);
 }
 
-TEST(Evolve, climbs) {
+TEST(Evolve, raises_the_best_reward_by_more_than_3_in_200_generations) {
     SyntheticEvaluator evaluator;
     EvolutionConfig config = small_config();
     config.generations = 200;
