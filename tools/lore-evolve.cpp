@@ -11,6 +11,7 @@
 #include <lore/core/error.h>
 #include <lore/core/isa.h>
 #include <lore/core/toml.h>
+#include <lore/core/utf8.h>
 #include <lore/experiment/run.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
@@ -49,7 +50,8 @@ double seconds_of(std::string const& text) {
         std::size_t const end = std::min(text.find(':', start), text.size());
         unsigned part = 0;
         auto const [stop, error] = std::from_chars(text.data() + start, text.data() + end, part);
-        if (error != std::errc{} || stop != text.data() + end || parts == 3)
+        bool const counts_on = parts > 0 && part >= 60;   // minutes and seconds behind a colon
+        if (error != std::errc{} || stop != text.data() + end || parts == 3 || counts_on)
             throw UsageError(fmt::format("--max-time {}", text), "it is no time", "Write it like 01:30:00.");
         total = total * 60 + part;
         start = end + 1;
@@ -122,15 +124,26 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, CommandLine& li
     app.add_option("--archive", line.archive, "keep the ancestors of the last population, or everybody ever evaluated")
         ->check(CLI::IsMember({"lineage", "all"}))
         ->capture_default_str();
-    app.add_flag("--bench", line.bench, "print the signature of a small fixed run and the steps simulated per second");
+    auto* const bench = app.add_flag("--bench", line.bench,
+                                     "print the signature of a small fixed run and the steps simulated per second");
     app.add_flag("-q,--quiet", line.run.quiet, "no progress on stderr");
     if (auto const only = parse_command_line(app, argc, argv)) return static_cast<ExitCode>(*only);
-    if (line.bench) return std::nullopt;
+    if (line.bench) {
+        for (CLI::Option const* const other : app.get_options())
+            if (other != bench && other->count() > 0 && other->get_name() != "--quiet")
+                throw UsageError(fmt::format("--bench takes no {}", other->get_name()), "it is a run of its own",
+                                 "Leave it out.");
+        return std::nullopt;
+    }
     // --founders takes all that follows, and the configuration may be the last of it.
     if (line.run.config_path.empty() && founders.size() > 1 && founders.back().ends_with(".toml")) {
         line.run.config_path = std::move(founders.back());
         founders.pop_back();
     }
+    for (std::string const& path : founders)
+        if (!is_printable(path))
+            throw UsageError(fmt::format("cannot take --founders {}", path), "the path is no printable UTF-8",
+                             "Rename it.");
     if (!founders.empty()) line.run.overrides.push_back("founders.from=" + setting_text(founders));
     if (seed_option->count() > 0) line.run.seed = seed;
     if (line.run.config_path.empty() && line.run.directory.empty())

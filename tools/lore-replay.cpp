@@ -10,6 +10,7 @@
 #include "program.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/archive/genome_file.h>
 #include <lore/archive/knowledge_file.h>
 #include <lore/archive/world_trace.h>
 #include <lore/arena_view/record.h>
@@ -97,11 +98,10 @@ std::vector<Shaper> read_knowledge(std::vector<std::string> const& paths, Channe
 }
 
 /// The picture but for the path itself.
-TrajectoryPicture picture_of(Arguments const& arguments, RunDirectory const& run, Birth const& birth,
+TrajectoryPicture picture_of(Arguments const& arguments, RunDirectory const& run, IndividualId id, double reward,
                              std::string const& unit) {
     TrajectoryPicture picture;
-    picture.title =
-        fmt::format("{}, individual {}: {}", run.config.name, text(birth.id), reward_text(birth.reward, unit));
+    picture.title = fmt::format("{}, individual {}: {}", run.config.name, text(id), reward_text(reward, unit));
     if (arguments.knowledge.empty()) return picture;
     std::vector<std::string> names;
     for (std::string const& path : arguments.knowledge) names.push_back(std::filesystem::path(path).stem().string());
@@ -135,10 +135,29 @@ Drawn draw_in_arena(CollectballWorld const& world, Network const& network, Episo
     return {trace_csv(steps), draw_trajectory(scene_of(world.arena()), RobotPath{poses, carrying}, picture)};
 }
 
+constexpr char failed_individual[] = "failed";
+
+/// An individual of the run, or the one whose evaluation failed, whose reward nobody knows.
+std::shared_ptr<Birth const> individual_of(RunDirectory const& run, std::string const& which) {
+    if (which != failed_individual) return run.individual(which);
+    std::string const path = run.file(run_file::failed_genome);
+    if (!std::filesystem::exists(path))
+        throw UsageError(fmt::format("no evaluation of {} failed", run.path), fmt::format("there is no {}", path),
+                         "Name another individual.");
+    FailedIndividual const failed = read_genome(path);
+    if (std::string const other = why_other(failed.world, run.world.record()); !other.empty())
+        throw Error(fmt::format("cannot repeat {}", path), other, "Give the run the world that it was made with.");
+    auto birth = std::make_shared<Birth>();
+    birth->id = failed.id;
+    birth->genome = failed.genome;
+    return birth;
+}
+
 /// 1. Simulate the individual again. 2. Look its windows up. 3. Write the trace and draw it.
 void replay_run(Arguments const& arguments) {
-    RunDirectory const run = open_run(arguments.run);
-    auto const birth = run.individual(arguments.individual);
+    bool const failed = arguments.individual == failed_individual;
+    RunDirectory const run = failed ? open_unfinished_run(arguments.run) : open_run(arguments.run);
+    auto const birth = individual_of(run, arguments.individual);
     World const& world = *run.world.world;
     std::string const& unit = world.facts().reward_unit;
     KnowledgeConfig config = run.config.knowledge;
@@ -146,13 +165,13 @@ void replay_run(Arguments const& arguments) {
 
     Network const network = compile(birth->genome);
     Trace const trace = record_episode(world, network, run.config.episode);
-    if (trace.reward != birth->reward)
+    if (!failed && trace.reward != birth->reward)
         throw Error(
             fmt::format("individual {} does not repeat", text(birth->id)),
             fmt::format("{} now, {} in its archive", reward_text(trace.reward, unit), reward_text(birth->reward, unit)),
             "Replay it with the version of Lore and the world that the run was made with.");
 
-    TrajectoryPicture picture = picture_of(arguments, run, *birth, unit);
+    TrajectoryPicture picture = picture_of(arguments, run, birth->id, trace.reward, unit);
     picture.window_length = config.window_length;
     if (!shapers.empty()) color(picture, values_of(trace, config.window_length, shapers, unit));
     picture.positions = trace.positions;
@@ -169,7 +188,7 @@ void replay_run(Arguments const& arguments) {
     if (arguments.quiet) return;
     auto const found =
         std::count_if(picture.values.begin(), picture.values.end(), [](double value) { return !std::isnan(value); });
-    fmt::print("individual {}: {} in {} steps{}\n", text(birth->id), reward_text(birth->reward, unit), trace.steps(),
+    fmt::print("individual {}: {} in {} steps{}\n", text(birth->id), reward_text(trace.reward, unit), trace.steps(),
                shapers.empty() ? ""
                                : fmt::format(", {} of {} windows in the knowledge base{}", found, picture.values.size(),
                                              shapers.size() > 1 ? "s" : ""));
@@ -198,6 +217,7 @@ int run(int argc, char** argv) {
         "5)\n"
         "  lore-replay runs/s1 --kb kb1.lorekb --kb kb2.lorekb --out replay   by the product of both (figure 6)\n"
         "  lore-replay runs/s1 --individual 312.17 --out replay   another ancestor of the last population\n"
+        "  lore-replay runs/s1 --individual failed --out replay   the one whose evaluation ended the run\n"
         "  lore-replay --actions a.csv --task source --out trace.csv          open loop: columns a0,a1,a2\n"
         "  lore-replay --follow trace.csv.gz --task source --out mine.csv     teacher forcing: each row from the "
         "recorded one\n"
@@ -205,7 +225,9 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", [] { return version_text("lore-replay"); });
     app.add_option("RUN_DIR", arguments.run,
                    "directory of a run; writes trace.csv and trajectory.svg, .png into --out");
-    app.add_option("--individual", arguments.individual, "'best', or GENERATION.SLOT")->capture_default_str();
+    app.add_option("--individual", arguments.individual,
+                   "'best', GENERATION.SLOT, or 'failed': the one whose evaluation failed")
+        ->capture_default_str();
     take_one_a_time(app.add_option("--kb", arguments.knowledge,
                                    "knowledge base whose values color the trajectory (repeatable: their product)"));
     app.add_option("--actions", arguments.actions,

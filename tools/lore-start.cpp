@@ -43,9 +43,9 @@ constexpr Program programs[]{
 
 /// That of the build or installation that this program belongs to; empty if it is not there.
 std::string path_of(std::string_view name) {
-    std::error_code failed;
-    fs::path const path = fs::read_symlink("/proc/self/exe", failed).parent_path() / fmt::format("lore-{}", name);
-    return !failed && fs::exists(path, failed) ? path.string() : "";
+    std::error_code ignored;
+    fs::path const folder = fs::path{own_program()}.parent_path(), path = folder / fmt::format("lore-{}", name);
+    return !folder.empty() && fs::exists(path, ignored) ? path.string() : "";
 }
 
 /// The first commands, as they work in the current directory.

@@ -2,9 +2,9 @@
 
 #include "boost_types.h"
 #include "genome_difference.h"
-#include "posix_file.h"
 #include "zstd_frame.h"
 
+#include <lore/core/file.h>
 #include <lore/core/input_file.h>
 
 #include <fmt/format.h>
@@ -23,9 +23,9 @@ namespace lore {
 
 namespace {
 
-constexpr std::uint32_t frame_mark = 0x4d415246;   ///< "FRAM"
-constexpr std::size_t frame_target = 256 * 1024;   ///< gathered before a frame is written [bytes]
-constexpr std::uint64_t most_frame_bytes = std::uint64_t{1} << 28;
+constexpr std::uint32_t frame_mark = 0x4d415246;                     ///< "FRAM"
+constexpr std::size_t frame_target = 256 * 1024;                     ///< gathered before a frame is written [bytes]
+constexpr std::uint64_t most_frame_bytes = std::uint64_t{1} << 32;   ///< a generation is in one, however large
 constexpr int zstd_level = 3;
 
 struct FrameHeader {

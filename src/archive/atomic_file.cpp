@@ -1,7 +1,5 @@
 #include <lore/archive/atomic_file.h>
 
-#include "posix_file.h"
-
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
 
@@ -11,6 +9,7 @@
 #include <filesystem>
 
 #include <fcntl.h>
+#include <unistd.h>
 
 namespace lore {
 
@@ -53,6 +52,14 @@ void write_in_parts(FileDescriptor const& file, std::span<std::byte const> conte
     write_fully(file.get(), content, path);
 }
 
+/// Makes a rename or a new name in it durable.
+void sync_directory_of(std::string const& path) {
+    std::string const directory = directory_of(path);
+    FileDescriptor const opened{::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (opened.get() < 0) throw file_error("write", path, errno);
+    sync_file(opened.get(), path);
+}
+
 /// `path` is what errors call it.
 void write_durably(std::string const& temporary, BytePieces content, std::string const& path) {
     FileDescriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
@@ -63,18 +70,6 @@ void write_durably(std::string const& temporary, BytePieces content, std::string
 }
 
 }   // namespace
-
-void sync_file(int descriptor, std::string const& path) {
-    // EINVAL: a file system or a device that knows no fsync; nothing is lost by not calling it there.
-    if (::fsync(descriptor) != 0 && errno != EINVAL) throw file_error("write", path, errno);
-}
-
-void sync_directory_of(std::string const& path) {
-    std::string const directory = directory_of(path);
-    FileDescriptor const opened{::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-    if (opened.get() < 0) throw file_error("write", path, errno);
-    sync_file(opened.get(), path);
-}
 
 void write_file_atomically(std::string const& path, std::span<std::byte const> content) {
     write_file_atomically(path, BytePieces{&content, 1});
@@ -117,9 +112,11 @@ std::vector<std::byte> read_file(std::string const& path) { return read_bytes(pa
 
 void remove_leftovers(std::string const& directory) {
     std::error_code ignored;
-    for (auto const& entry : std::filesystem::directory_iterator{directory, ignored})
-        if (entry.path().filename().string().find(temporary_mark) != std::string::npos)
-            std::filesystem::remove(entry.path(), ignored);
+    for (std::filesystem::directory_iterator at{directory, ignored}, end; !ignored && at != end; at.increment(ignored))
+        if (at->path().filename().string().find(temporary_mark) != std::string::npos) {
+            std::error_code kept;
+            std::filesystem::remove(at->path(), kept);
+        }
 }
 
 }   // namespace lore

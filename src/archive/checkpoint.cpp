@@ -3,6 +3,7 @@
 #include "birth_table.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/core/file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -145,8 +146,10 @@ void write_checkpoint(std::string const& path, std::string const& older, Checkpo
 }
 
 FoundCheckpoint read_checkpoint(std::string const& path, std::string const& older) {
+    // A disk that fails is no damage to the file: that is thrown, and what is there stays.
+    Bytes const newer = is_there(path) || !is_there(older) ? read_file(path) : Bytes{};
     try {
-        return {unpack_checkpoint(read_container(path, FileKind::checkpoint), path), ""};
+        return {unpack_checkpoint(unseal(newer, FileKind::checkpoint, path), path), ""};
     } catch (NewerFormat const&) {
         throw;   // no damage: going on from the older one would throw the newer Lore's work away
     } catch (Error const& newer_fails) {

@@ -2,6 +2,7 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/archive/npy_file.h>
+#include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 
@@ -83,7 +84,7 @@ void export_knowledge(std::string const& directory, KnowledgeBase const& base) {
     // Evidence that this base lacks may be there of another.
     for (char const* const part : {"gammas.npy", "showings.npy", "return_sums.npy", "news.npy", "gain_sums.npy",
                                    "contrast_totals.npy", "successes_that_showed.npy", "failures_that_showed.npy"})
-        std::filesystem::remove(file(part));
+        remove_file(file(part));
     Evidence const& evidence = base.evidence();
     if (evidence.has_returns()) {
         std::vector<double> const showings(evidence.showings.begin(), evidence.showings.end());

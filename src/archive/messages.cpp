@@ -97,6 +97,7 @@ std::vector<Genome> unpack_genomes(std::span<std::byte const> bytes) {
         std::size_t const biases = in.get_count(interface.outputs + std::size_t{most_hidden});
         for (Edge& edge : genome.edges) edge = in.get<EdgeBytes>().edge();
         genome.biases = in.get_all<float>(biases);
+        if (std::string const why = why_invalid(genome); !why.empty()) in.fail("an invalid genome: " + why);
     }
     in.expect_end();
     return genomes;

@@ -1,29 +1,15 @@
 #include <lore/campaign/board.h>
 
 #include <lore/core/standard_streams.h>
+#include <lore/core/terminal.h>
 #include <lore/core/utf8.h>
 
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace lore {
-
-namespace {
-
-struct TerminalSize {
-    std::size_t rows = 24, columns = 80;
-};
-
-TerminalSize terminal_size() {
-    winsize size{};
-    if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0) return {};
-    return {size.ws_row, size.ws_col};
-}
-
-}   // namespace
 
 Board::Board(bool quiet) : quiet_(quiet), live_(!quiet && ::isatty(STDERR_FILENO) != 0) {}
 Board::~Board() { erase(); }
@@ -54,7 +40,7 @@ void Board::draw(std::vector<std::string> lines) {
         lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(size.rows - 1));
     std::string text;
     for (std::string& line : lines) {
-        if (line.size() > size.columns - 1) line.resize(size.columns - 1);
+        line = cut_to_columns(line, size.columns);
         text += line + "\n";
     }
     write_stderr(text);

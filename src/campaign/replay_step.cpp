@@ -35,31 +35,20 @@ std::string source_run(CampaignPlan const& plan, CampaignDirectory const& direct
     return state_of(plan, directory, step, Locks::ignored).status == StepStatus::done ? step.name : "";
 }
 
-/// The finished run of these treatments with most reward, the first among equals; "" if there is none yet.
-std::string best_run_of(std::vector<std::string> const& treatments, CampaignPlan const& plan,
-                        CampaignDirectory const& directory) {
-    std::string best;
-    double most = 0;
-    for (std::string const& name : treatments) {
-        Treatment const& treatment = plan.treatment(name);
-        for (int run = 1; run <= treatment.runs; ++run) {
-            Step const step{run_step(name, run), StepKind::evolve, name, name, run, {}};
-            StepState const state = state_of(plan, directory, step, Locks::ignored);
-            if (state.status != StepStatus::done || (!best.empty() && state.best_reward <= most)) continue;
-            best = step.name;
-            most = state.best_reward;
-        }
-    }
-    return best;
-}
-
 /// The best of each target task that has finished runs.
 std::vector<std::string> best_target_runs(CampaignPlan const& plan, CampaignDirectory const& directory) {
-    std::vector<std::string> runs;
-    for (TaskGroup const& group : task_groups(plan))
-        if (std::string best = best_run_of(group.treatments, plan, directory); !best.empty())
-            runs.push_back(std::move(best));
-    return runs;
+    std::vector<std::string> best;
+    for (TaskGroup const& group : task_groups(plan)) {
+        std::vector<StepWithState> runs;
+        for (std::string const& name : group.treatments)
+            for (int run = 1; run <= plan.treatment(name).runs; ++run) {
+                Step const step{run_step(name, run), StepKind::evolve, name, name, run, {}};
+                runs.push_back({step, state_of(plan, directory, step, Locks::ignored)});
+            }
+        if (StepWithState const* const first = best_finished_run(runs, group.treatments))
+            best.push_back(first->step.name);
+    }
+    return best;
 }
 
 /// Panels that can be drawn: of the knowledge bases that are there.

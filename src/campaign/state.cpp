@@ -91,16 +91,19 @@ StepState run_state(CampaignPlan const& plan, CampaignDirectory const& directory
     } catch (Error const& error) { return say(StepStatus::failed, error.what()); }
     if (manifest) state.reward_unit = unit_of(*manifest);
     if (config) {
+        auto const say_other = [&](std::string const& how) {
+            state.other = true;
+            return say(StepStatus::failed, fmt::format("it {}: move {} away", how, run));
+        };
         if (seed && manifest->seed != *seed)
-            return say(StepStatus::failed,
-                       fmt::format("it has seed {}, not {}: move {} away", manifest->seed, *seed, run));
+            return say_other(fmt::format("has seed {}, not {}", manifest->seed, *seed));
         bool const longer = goes_on(plan, treatment, *config, state.generations);
         if (auto const others = other_settings(plan, treatment, *config, longer); !others.empty())
-            return say(StepStatus::failed, fmt::format("it was made with {}: move {} away", text(others), run));
+            return say_other(fmt::format("was made with {}", text(others)));
         auto const choice = treatment.policy_of.empty() ? std::nullopt : recorded_choices(plan, directory);
         CommandContext const context{plan, directory, choice ? &*choice : nullptr};
         if (auto const others = other_inputs(treatment, context, planned.founders_from, *manifest); !others.empty())
-            return say(StepStatus::failed, fmt::format("it was made {}: move {} away", others, run));
+            return say_other(fmt::format("was made {}", others));
         if (!is_there(in(run, run_file::lineage)))
             return say(StepStatus::failed, fmt::format("there is no {}", in(run, run_file::lineage)));
         if (!row || row->generation != manifest->generation)
@@ -224,6 +227,17 @@ std::vector<StepWithState> states_of(CampaignPlan const& plan, CampaignDirectory
         all.push_back({step, std::move(state)});
     }
     return all;
+}
+
+StepWithState const* best_finished_run(std::span<StepWithState const> steps, std::span<std::string const> treatments) {
+    StepWithState const* best = nullptr;
+    for (std::string const& treatment : treatments)
+        for (StepWithState const& one : steps) {
+            bool const finished = one.step.kind == StepKind::evolve && one.step.subject == treatment &&
+                                  one.state.status == StepStatus::done;
+            if (finished && (best == nullptr || one.state.best_reward > best->state.best_reward)) best = &one;
+        }
+    return best;
 }
 
 void write_failure(CampaignDirectory const& directory, Step const& step, FailureRecord const& failure) {

@@ -13,8 +13,8 @@
 namespace lore {
 
 EvaluationFailure::EvaluationFailure(int index, int rank, Genome genome, std::string reason)
-    : Error(fmt::format("an evaluation failed on rank {}", rank), reason, "Repeat it with lore-replay."), index_(index),
-      rank_(rank), genome_(std::move(genome)), reason_(std::move(reason)) {}
+    : Error(fmt::format("an evaluation failed on rank {}", rank), reason, "Resume the run when the cause is mended."),
+      index_(index), rank_(rank), genome_(std::move(genome)), reason_(std::move(reason)) {}
 
 struct Farm::Parts {
     Parts(Communicator communicator, EvaluationContext context)

@@ -11,12 +11,13 @@ namespace lore {
 
 namespace {
 
-/// Remembers which genomes are in the lanes.
+/// Remembers which genomes are in the lanes, and what the queue itself has thrown.
 class WatchedQueue : public EvaluationQueue {
 public:
     WatchedQueue(EvaluationQueue& queue, TestHooks& hooks) : queue_(queue), hooks_(hooks) {}
     std::optional<Item> next() override {
-        auto const item = queue_.next();
+        std::optional<Item> item;
+        guard([&] { item = queue_.next(); });
         if (!item) return item;
         in_lanes.emplace(item->ticket, *item->genome);
         hooks_.before_evaluation(*item->genome);
@@ -25,13 +26,26 @@ public:
     void deliver(int ticket, Evaluation evaluation) override {
         hooks_.before_delivery(evaluation);
         in_lanes.erase(ticket);
-        queue_.deliver(ticket, std::move(evaluation));
+        guard([&] { queue_.deliver(ticket, std::move(evaluation)); });
     }
-    void pulse() override { queue_.pulse(); }
+    void pulse() override {
+        guard([&] { queue_.pulse(); });
+    }
 
-    std::map<int, Genome> in_lanes;   ///< by ticket
+    std::map<int, Genome> in_lanes;     ///< by ticket
+    std::exception_ptr queue_failure;   ///< a message that is damaged, memory for an answer: no genome's fault
 
 private:
+    template <class Call>
+    void guard(Call const& call) {
+        try {
+            call();
+        } catch (...) {
+            queue_failure = std::current_exception();
+            throw;
+        }
+    }
+
     EvaluationQueue& queue_;
     TestHooks& hooks_;
 };
@@ -66,6 +80,7 @@ std::optional<Culprit> GuardedEvaluation::evaluate(EvaluationQueue& queue) {
         evaluate_queue(context_, watched);
         return std::nullopt;
     } catch (...) { reason = reason_of_current_exception(); }
+    if (watched.queue_failure) std::rethrow_exception(watched.queue_failure);
     if (watched.in_lanes.empty()) throw Error("an evaluation failed", reason, "Resume the run.");
     for (auto const& [ticket, genome] : watched.in_lanes) {
         try {

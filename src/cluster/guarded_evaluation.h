@@ -22,7 +22,8 @@ public:
     GuardedEvaluation(EvaluationContext context, int rank) : context_(std::move(context)), hooks_(rank) {}
 
     /// evaluate_queue. After an exception evaluates alone, one after the other, the genomes that were in the lanes, and
-    /// returns the first that throws again, else the first of them. Throws Error if the lanes were empty.
+    /// returns the first that throws again, else the first of them. Throws Error if the lanes were empty, and what the
+    /// queue throws.
     std::optional<Culprit> evaluate(EvaluationQueue&);
 
 private:

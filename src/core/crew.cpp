@@ -1,18 +1,31 @@
 #include <lore/core/crew.h>
 
+#include <lore/core/error.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+#include <system_error>
 #include <utility>
 
 namespace lore {
 
 Crew::Crew(int threads, int guests) : threads_(threads) {
     assert(threads >= 1 && guests >= 0);
-    for (int helper = guests + 1; helper < threads; ++helper)
-        helpers_.emplace_back([this] { assist_until([this] { return ending_; }); });
+    try {
+        for (int helper = guests + 1; helper < threads; ++helper)
+            helpers_.emplace_back([this] { assist_until([this] { return ending_; }); });
+    } catch (std::system_error const& error) {
+        dismiss();
+        throw Error(fmt::format("cannot start {} threads", threads), error.what(),
+                    "Ask for fewer, or raise the limit (ulimit -u).");
+    }
 }
 
-Crew::~Crew() {
+Crew::~Crew() { dismiss(); }
+
+void Crew::dismiss() {
     {
         std::lock_guard const lock{mutex_};
         ending_ = true;

@@ -92,6 +92,8 @@ std::string csv_field(std::string_view text) {
 
 CsvTable::CsvTable(std::string path, std::string text, std::string_view remedy)
     : path_(std::move(path)), remedy_(remedy) {
+    if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
+        text.erase(0, byte_order_mark.size());   // spreadsheets write one
     auto const kept = std::make_shared<std::string>(std::move(text));
     text_ = kept;
     read_lines(

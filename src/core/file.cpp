@@ -20,7 +20,7 @@ namespace {
 std::string_view remedy_for(int error_number) {
     switch (error_number) {
     case ENOSPC:
-    case EDQUOT: return "Free some space and run again.";
+    case EDQUOT: return "Free some space and run again (a run: with --resume).";
     case EFBIG: return "Raise the limit on file sizes (ulimit -f) and run again.";
     case EACCES:
     case EPERM:
@@ -48,6 +48,11 @@ void write_fully(int descriptor, std::span<std::byte const> content, std::string
         if (written < 0) throw file_error("write", path, errno);
         content = content.subspan(static_cast<std::size_t>(written));
     }
+}
+
+void sync_file(int descriptor, std::string const& path) {
+    // EINVAL: a file system or a device that knows no fsync; nothing is lost by not calling it there.
+    if (::fsync(descriptor) != 0 && errno != EINVAL) throw file_error("write", path, errno);
 }
 
 bool is_there(std::string const& path) {

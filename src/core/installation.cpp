@@ -37,10 +37,14 @@ std::string similar_name_beside(fs::path const& path) {
 
 }   // namespace
 
+std::string own_program() {
+    std::error_code ignored;
+    return fs::read_symlink("/proc/self/exe", ignored).string();
+}
+
 std::string jobs_directory() {
-    std::error_code failed;
-    fs::path const folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
-    if (failed) return "";
+    fs::path const folder = fs::path{own_program()}.parent_path();
+    if (folder.empty()) return "";
     for (fs::path const& place : {folder.parent_path() / LORE_DATA_FOLDER / "lore" / jobs,
                                   folder.parent_path().parent_path().parent_path() / jobs})
         if (is_there(place / "tasks" / "source.toml")) return place.string();

@@ -1,6 +1,7 @@
 #include <lore/core/progress.h>
 
 #include <lore/core/standard_streams.h>
+#include <lore/core/terminal.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,8 @@ namespace lore {
 
 namespace {
 
-constexpr int bar_width = 30;
+constexpr int long_bar = 30, short_bar = 10;
+constexpr std::size_t wide_terminal = 110;   ///< columns
 constexpr std::chrono::milliseconds redraw_every{100};
 
 }   // namespace
@@ -58,9 +60,14 @@ void Progress::update(std::int64_t done, std::string_view note) {
     std::string_view const gap = note.empty() ? "" : ", ";
     std::string line;
     if (terminal_) {
-        auto const filled = static_cast<int>(total_ <= 0 ? bar_width : bar_width * std::min(done, total_) / total_);
-        line = fmt::format("\r{} [{:=<{}}{:{}}] {}/{} {}, {}{}{}\x1b[K", title_, "", filled, "", bar_width - filled,
-                           done, total_, unit_, time, gap, note);
+        std::size_t const columns = terminal_size().columns;
+        int const width = columns < wide_terminal ? short_bar : long_bar;
+        auto const filled = static_cast<int>(total_ <= 0 ? width : width * std::min(done, total_) / total_);
+        // A line that wrapped could not be drawn over.
+        line = fmt::format("\r{}\x1b[K",
+                           cut_to_columns(fmt::format("{} [{:=<{}}{:{}}] {}/{} {}, {}{}{}", title_, "", filled, "",
+                                                      width - filled, done, total_, unit_, time, gap, note),
+                                          columns));
         bar_open_ = !last;
         if (last) line += '\n';
     } else {

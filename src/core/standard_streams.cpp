@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 namespace lore {
@@ -39,6 +40,11 @@ std::string why_stdout_is_lost() {
     if (reason.empty() && (!flushed || std::ferror(stdout) != 0))
         reason = errno != 0 ? std::strerror(errno) : "a part of it is lost";
     return reason;
+}
+
+bool stdout_has_lost_its_reader() {
+    pollfd stream{STDOUT_FILENO, 0, 0};
+    return ::poll(&stream, 1, 0) == 1 && (stream.revents & POLLERR) != 0;
 }
 
 }   // namespace lore

@@ -203,10 +203,15 @@ ExperimentConfig read_config(std::string const& path, std::vector<std::string> c
 }
 
 std::string to_toml(ExperimentConfig const& config) {
-    ExperimentConfig copy = config;   // settings are bound for reading as well
+    ExperimentConfig copy = config, unchanged;   // settings are bound for reading as well
+    auto const settings = settings_of(copy), usual = settings_of(unchanged);
     std::string text = "# The complete configuration of a run of Lore.\n";
     std::string section;
-    for (Setting const& setting : settings_of(copy)) {
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        Setting const& setting = settings[i];
+        // Where there is a world, the usual arena and its task would pass for those of the run.
+        bool const of_arena = setting.full_key() == "arena" || setting.full_key() == "task";
+        if (of_arena && config.has_world() && setting.text() == usual[i].text()) continue;
         if (setting.section != section) {
             section = setting.section;
             text += fmt::format("\n[{}]\n", section);

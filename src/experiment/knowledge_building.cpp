@@ -259,6 +259,13 @@ KnowledgeBase build(RunDirectory const& run, Source const& source, KnowledgeConf
     return std::move(builder).finish(std::move(provenance));
 }
 
+void refuse_without_archive(RunDirectory const& run) {
+    if (!std::filesystem::exists(run.file(run_file::all_individuals)))
+        throw Error(fmt::format("{} did not keep all individuals", run.path),
+                    fmt::format("there is no {}", run_file::all_individuals),
+                    "Run 'lore-evolve' with '--archive all', or build from the lineage without --all.");
+}
+
 }   // namespace
 
 std::vector<double> default_gammas() { return {0.99, 0.995, 0.998}; }
@@ -283,7 +290,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
                                Provenance provenance, BuildingObserver const& observe, std::vector<double> gammas,
                                std::optional<double> success_reward, std::string const& folder) {
     assert(every >= 1);
-    archived_individuals(run);
+    refuse_without_archive(run);
     provenance.kind = "all";
     provenance.best_reward = run.individual("best")->reward;
     Source const all_individuals = [&](auto const& each) {
@@ -300,10 +307,7 @@ KnowledgeBase knowledge_of_all(RunDirectory const& run, int every, KnowledgeConf
 }
 
 std::uint64_t archived_individuals(RunDirectory const& run) {
-    if (!std::filesystem::exists(run.file(run_file::all_individuals)))
-        throw Error(fmt::format("{} did not keep all individuals", run.path),
-                    fmt::format("there is no {}", run_file::all_individuals),
-                    "Run 'lore-evolve' with '--archive all', or build from the lineage without --all.");
+    refuse_without_archive(run);
     return check_all_individuals(run.file(run_file::all_individuals)).individuals;
 }
 

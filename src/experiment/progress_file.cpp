@@ -97,9 +97,9 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes, std::strin
                         fmt::format("it is shorter than the {} bytes that the checkpoint knows", bytes),
                         "Take a copy that is whole, or start the run anew in another directory.");
     }
-    file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666);
-    if (file_ < 0) throw write_error(path_);
-    if (!fresh && (::ftruncate(file_, static_cast<off_t>(bytes)) != 0 || ::lseek(file_, 0, SEEK_END) < 0))
+    file_ = FileDescriptor{::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666)};
+    if (file_.get() < 0) throw write_error(path_);
+    if (!fresh && (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0 || ::lseek(file_.get(), 0, SEEK_END) < 0))
         throw write_error(path_);
     bytes_ = bytes;
     if (fresh) {
@@ -111,13 +111,9 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes, std::strin
     }
 }
 
-ProgressWriter::~ProgressWriter() {
-    if (file_ >= 0) ::close(file_);
-}
-
 void ProgressWriter::write(std::string_view line) {
     while (!line.empty()) {
-        ssize_t const written = ::write(file_, line.data(), line.size());
+        ssize_t const written = ::write(file_.get(), line.data(), line.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) throw write_error(path_);
         bytes_ += static_cast<std::uint64_t>(written);
@@ -128,7 +124,7 @@ void ProgressWriter::write(std::string_view line) {
 void ProgressWriter::add(GenerationSummary const& row) { write(row_text(columns_, row) + "\n"); }
 
 std::uint64_t ProgressWriter::sync() {
-    if (::fsync(file_) != 0 && errno != EINVAL) throw write_error(path_);
+    if (::fsync(file_.get()) != 0 && errno != EINVAL) throw write_error(path_);
     return bytes_;
 }
 

@@ -42,7 +42,9 @@ Error tell(EvaluationFailure const& failure, int generation, WorldRecord const& 
     std::string remedy;
     try {
         write_genome(genome_path, {id, failure.genome(), failure.rank(), failure.reason(), world});
-        remedy = fmt::format("Its genome is in {}; resume the run when the cause is mended.", genome_path);
+        remedy = fmt::format("Its genome is in {}; 'lore-replay {} --individual failed' repeats the evaluation. Resume "
+                             "the run when the cause is mended.",
+                             genome_path, std::filesystem::path{genome_path}.parent_path().string());
     } catch (Error const& error) { remedy = fmt::format("Its genome could not be saved: {}", error.what()); }
     return Error(fmt::format("the evaluation of individual {} failed on rank {} in generation {}", text(id),
                              failure.rank(), generation),
@@ -193,6 +195,7 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     std::vector<Genome> const founders = std::move(run.setup.founders);
     std::string const genome_path = run.setup.file(run_file::failed_genome);
     WorldRecord const world = run.setup.manifest.world;
+    double const start_seconds = watch.total();
     RunBooks books{std::move(run.setup), std::move(hosts), options.command_line, nothing_shown};
     int const reached = state.population.members.empty() ? -1 : state.population.generation;
     Supervisor supervisor{books, evolution, options, watch, reached, session.size()};
@@ -210,8 +213,9 @@ RunOutcome run_experiment(Session const& session, RunOptions const& options) {
     books.close(state, stop_reason.empty() ? RunStatus::done : RunStatus::interrupted,
                 stop_reason.empty() ? "done" : stop_reason);
     if (!options.quiet)
-        write_stderr(time_report(rank_times, {supervisor.selection_seconds(), books.filing_seconds(), watch.total()}) +
-                     cost_report(rank_times, books.session_steps(), watch.total()));
+        write_stderr(time_report(rank_times, {start_seconds, supervisor.selection_seconds(), books.filing_seconds(),
+                                              watch.total()}) +
+                     cost_report(rank_times, books.session_steps(), books.session_seconds()));
     return outcome(state, stop_reason, books.reward_unit());
 }
 

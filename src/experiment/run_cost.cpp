@@ -32,11 +32,11 @@ std::string CostForecast::after(int generation, double now) {
                        duration_text(each * planned), planned, short_time_text(each), ranks_, ranks_ == 1 ? "" : "s");
 }
 
-std::string cost_report(std::vector<RankTimes> const& ranks, std::uint64_t steps, double wall) {
+std::string cost_report(std::vector<RankTimes> const& ranks, std::uint64_t steps, double seconds) {
     double processor = 0;
     for (RankTimes const& rank : ranks) processor += rank.processor;
     return fmt::format("cost: {:.1f} processor seconds, {} steps, {:.3g} million steps a second\n", processor, steps,
-                       static_cast<double>(steps) / std::max(wall, 1e-9) / 1e6);
+                       static_cast<double>(steps) / std::max(seconds, 1e-9) / 1e6);
 }
 
 }   // namespace lore

@@ -27,8 +27,8 @@ private:
     bool told_ = false;
 };
 
-/// What a session has cost: processor time of all ranks until the farm stopped, steps, and steps a second of its wall
-/// time [s].
-std::string cost_report(std::vector<RankTimes> const&, std::uint64_t steps, double wall);
+/// What a session has cost: processor time of all ranks until the farm stopped, steps, and steps a second of `seconds`
+/// of its generations.
+std::string cost_report(std::vector<RankTimes> const&, std::uint64_t steps, double seconds);
 
 }   // namespace lore

@@ -55,7 +55,7 @@ std::string remedy_for_no_run(std::string const& path) {
 
 }   // namespace
 
-RunDirectory open_run(std::string const& path) {
+RunDirectory open_unfinished_run(std::string const& path) {
     RunDirectory run;
     run.path = path;
     if (!std::filesystem::is_directory(path))
@@ -66,6 +66,11 @@ RunDirectory open_run(std::string const& path) {
                          remedy_for_no_run(path));
     run.config = read_config(run.file(run_file::config));
     run.world = open_run_world(run.config, arena_text_of(run.config));
+    return run;
+}
+
+RunDirectory open_run(std::string const& path) {
+    RunDirectory run = open_unfinished_run(path);
     if (!std::filesystem::exists(run.file(run_file::lineage)))
         throw Error(fmt::format("no lineage in {}", path),
                     fmt::format("{} is written when a run stops or ends", run_file::lineage),

@@ -95,9 +95,9 @@ RunWorld settle_world(RunSetup& setup) {
 }
 
 /// config.toml, and what other ranks are told, is UTF-8: a path that is not could not be read again.
-void refuse_unreadable_paths(ExperimentConfig const& config) {
+void refuse_unreadable_paths(ExperimentConfig const& config, std::string const& knowledge_path) {
     std::vector<std::string> paths = config.founders_from;
-    paths.insert(paths.end(), {config.world.folder, config.world.name, config.arena});
+    paths.insert(paths.end(), {config.world.folder, config.world.name, config.arena, knowledge_path});
     for (std::string const& path : paths)
         if (!is_printable(path))
             throw UsageError(fmt::format("cannot take {}", path), "the path is no printable UTF-8",
@@ -113,7 +113,7 @@ void settle(PreparedRun& run, RunOptions const& options) {
                                               setup.order.config.evolution, setup.seed);
     if (setup.order.config.evolution.use_shaping && setup.order.knowledge_path.empty())
         throw UsageError("evolution.use_shaping is true", "no knowledge base is given", "Give one with --kb.");
-    refuse_unreadable_paths(setup.order.config);
+    refuse_unreadable_paths(setup.order.config, setup.order.knowledge_path);
     check_digest(setup);
     int const reached = setup.checkpoint ? setup.checkpoint->state.population.generation : -1;
     if (reached > setup.order.config.evolution.generations)

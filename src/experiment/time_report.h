@@ -9,6 +9,7 @@ namespace lore {
 
 /// Where the wall time of rank 0 went besides the farm's own accounts [s].
 struct MasterTimes {
+    double start = 0;       ///< configuration, world, knowledge base, founders: all before the first generation
     double selection = 0;   ///< breeding, ranking, choosing
     double files = 0;
     double wall = 0;

@@ -114,6 +114,25 @@ std::string verify_table(std::string const& path) {
                 "Take a copy that is whole.");
 }
 
+/// The checkpoint belongs to the run, and its table reaches as far: else --resume would refuse it.
+void verify_that_it_goes_on(std::string const& run) {
+    std::filesystem::path const directory{run};
+    std::string const path = (directory / run_file::checkpoint).string(),
+                      progress = (directory / run_file::progress).string();
+    Checkpoint const checkpoint = unpack_checkpoint(read_container(path, FileKind::checkpoint), path);
+    if (std::uint64_t const seed = read_manifest((directory / run_file::manifest).string()).seed;
+        checkpoint.seed != seed)
+        throw Error(fmt::format("{} is of another run", path),
+                    fmt::format("its seed is {}, that of {} is {}", checkpoint.seed, run_file::manifest, seed),
+                    "Take a copy that is whole.");
+    std::uint64_t const bytes = std::filesystem::exists(progress) ? open_regular(progress).size : 0;
+    if (bytes < checkpoint.progress_bytes)
+        throw Error(
+            fmt::format("{} was cut", progress),
+            fmt::format("it has {} bytes, of the {} that the checkpoint knows", bytes, checkpoint.progress_bytes),
+            "Take a copy that is whole.");
+}
+
 std::string verify_directory(std::string const& path, Lacks const& lacks) {
     constexpr std::array always{run_file::config, run_file::manifest};
     constexpr std::array known{run_file::config,           run_file::arena,           run_file::progress,
@@ -133,6 +152,7 @@ std::string verify_directory(std::string const& path, Lacks const& lacks) {
         verify((std::filesystem::path{path} / file).string(), lacks);
         whole.emplace_back(file);
     }
+    if (is_there(run_file::checkpoint)) verify_that_it_goes_on(path);
     return fmt::format("run directory with {}", fmt::join(whole, ", "));
 }
 

@@ -136,7 +136,7 @@ void ArchiveWriter::write(std::span<std::byte const> bytes) {
 
 void ArchiveWriter::close() {
     expect(archive_write_close(state_->archive.get()), state_->path, state_->archive.get());
-    if (::fsync(state_->file.get()) != 0 && errno != EINVAL) throw file_error("write", state_->path, errno);
+    sync_file(state_->file.get(), state_->path);
     if (!state_->file.close()) throw file_error("write", state_->path, errno);
     rename_without_replacing(state_->temporary, state_->path);
     state_->kept = true;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -152,7 +153,12 @@ std::string date_of(PackOptions const& options, CrateActions const& told) {
                       std::equal(date.begin(), date.end(), form.begin(), [](unsigned char c, char wanted) {
                           return wanted == '0' ? std::isdigit(c) != 0 : c == '-';
                       });
-    if (fits) return date;
+    auto const part = [&](std::size_t first, std::size_t count) { return std::stoi(date.substr(first, count)); };
+    if (fits && std::chrono::year_month_day{std::chrono::year{part(0, 4)},
+                                            std::chrono::month{static_cast<unsigned>(part(5, 2))},
+                                            std::chrono::day{static_cast<unsigned>(part(8, 2))}}
+                    .ok())
+        return date;
     throw UsageError(options.date.empty() ? "no run says when it ended" : fmt::format("'{}' is no date", options.date),
                      "a pack has a date", "Give one with --date, as YYYY-MM-DD.");
 }

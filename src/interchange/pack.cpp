@@ -21,16 +21,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files would change while they are read.
-void refuse_work_in_progress(CampaignPlan const& plan, CampaignDirectory const& directory) {
+/// Files that would change while they are read, and runs that the plan does not describe.
+void refuse_what_cannot_be_told(CampaignPlan const& plan, CampaignDirectory const& directory) {
     std::error_code ignored;   // what cannot be looked at is as good as not there
     if (!fs::is_directory(directory.path(), ignored))
         throw UsageError(fmt::format("there is nothing to pack in {}", directory.path()), "no such directory",
                          "Start with 'lore-campaign run', or check --dir.");
-    for (Step const& step : steps_of(plan))
-        if (state_of(plan, directory, step).status == StepStatus::running)
+    for (Step const& step : steps_of(plan)) {
+        StepState const state = state_of(plan, directory, step);
+        if (state.status == StepStatus::running)
             throw Error(fmt::format("cannot pack {}", directory.path()), fmt::format("{} is at work", step.name),
                         "Wait for it, or stop it, and pack then.");
+        if (state.other)
+            throw UsageError(fmt::format("cannot pack {} as {}", directory.path(), plan.path),
+                             fmt::format("{}: {}", step.name, state.reason),
+                             "Give the campaign that it was made with.");
+    }
 }
 
 /// A pack in whole: its files, and the two that describe them.
@@ -41,7 +47,7 @@ struct Pack {
 
 Pack gathered(CampaignPlan const& plan, CampaignDirectory const& directory, PackOptions const& options,
               Pulse const& pulse) {
-    refuse_work_in_progress(plan, directory);
+    refuse_what_cannot_be_told(plan, directory);
     Pack pack;
     pack.inventory = take_inventory(plan, directory, options.leave_out, pulse);
     pack.crate = crate_json(plan, directory, pack.inventory, options);

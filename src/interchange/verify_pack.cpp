@@ -251,15 +251,6 @@ private:
     std::string path_;
 };
 
-void write_all(int file, std::span<std::byte const> bytes, std::string const& path) {
-    while (!bytes.empty()) {
-        ssize_t const written = ::write(file, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw file_error("write", path, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-}
-
 /// Only names that were found to be safe, and nothing over what is there.
 void unpack(std::string const& archive, std::string const& prefix, std::set<std::string> const& wanted,
             std::string const& into, Pulse const& pulse) {
@@ -270,7 +261,7 @@ void unpack(std::string const& archive, std::string const& prefix, std::set<std:
         make_directory(fs::path{path}.parent_path().string());
         FileDescriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600)};
         if (file.get() < 0) throw file_error("write", path, errno);
-        entry.read([&](std::span<std::byte const> bytes) { write_all(file.get(), bytes, path); });
+        entry.read([&](std::span<std::byte const> bytes) { write_fully(file.get(), bytes, path); });
         if (!file.close()) throw file_error("write", path, errno);
     });
 }

@@ -6,6 +6,7 @@
 #include "summary.h"
 
 #include <lore/archive/atomic_file.h>
+#include <lore/campaign/state.h>
 #include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
@@ -65,9 +66,19 @@ void check_results(CampaignPlan const& plan, Results const& results) {
     check_pools(plan, results);
 }
 
+/// Empty tables would take the place of those of the campaign that the runs belong to.
+void refuse_others(CampaignPlan const& plan, CampaignDirectory const& from) {
+    for (auto const& [step, state] : states_of(plan, from))
+        if (state.other)
+            throw UsageError(fmt::format("no run in {} is one of {}", from.path(), plan.path),
+                             fmt::format("{}: {}", step.name, state.reason),
+                             "Give the campaign that it was made with.");
+}
+
 /// Makes the tables from the runs. What cannot be reported, or has a damaged replay beside it, replaces no table.
 void make_tables(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     Results results = collect_results(plan, from);
+    if (results.runs.empty()) refuse_others(plan, from);
     results.replays = read_replays(into).replays;
     check_results(plan, results);
     write_results(into, results);

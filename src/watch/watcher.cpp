@@ -77,17 +77,17 @@ void add_progress(CampaignFacts& facts) {
     if (running > 0 && left > 0) facts.seconds_left = left / running;
 }
 
-/// The finished run of these treatments with most reward, the first among equals; nothing if none is finished.
+/// The best finished run of these treatments; nothing if none is finished.
 std::optional<Champion> champion_of(CampaignPlan const& plan, std::vector<std::string> const& treatments,
                                     CampaignFacts const& facts) {
-    std::optional<Champion> best;
-    for (std::string const& name : treatments)
-        for (auto const& [step, state] : facts.steps) {
-            if (step.kind != StepKind::evolve || step.subject != name || state.status != StepStatus::done) continue;
-            if (best && state.best_reward <= best->reward) continue;
-            best = Champion{step.name, plan.treatment(name).label, state.best_reward, state.reward_unit, "", ""};
-        }
-    return best;
+    StepWithState const* const best = best_finished_run(facts.steps, treatments);
+    if (best == nullptr) return std::nullopt;
+    return Champion{best->step.name,
+                    plan.treatment(best->step.subject).label,
+                    best->state.best_reward,
+                    best->state.reward_unit,
+                    "",
+                    ""};
 }
 
 }   // namespace

@@ -28,7 +28,7 @@ bool same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit
 }   // namespace
 
 LifeScript::LifeScript(WorldFacts const& facts, int lives, int steps, std::uint64_t seed)
-    : lives_(lives), steps_(steps), channels_(facts.effectors.size()) {
+    : steps_(steps), channels_(facts.effectors.size()) {
     values_.reserve(static_cast<std::size_t>(lives) * static_cast<std::size_t>(steps) * channels_);
     std::vector<float> now(channels_);
     for (int life = 0; life < lives; ++life) {

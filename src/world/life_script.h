@@ -15,7 +15,6 @@ class LifeScript {
 public:
     LifeScript(WorldFacts const&, int lives, int steps, std::uint64_t seed);
 
-    int lives() const { return lives_; }
     int steps() const { return steps_; }
     float effector(int life, int step, int channel) const {
         return values_[(static_cast<std::size_t>(life) * static_cast<std::size_t>(steps_) +
@@ -25,7 +24,7 @@ public:
     }
 
 private:
-    int lives_, steps_;
+    int steps_;
     std::size_t channels_;
     std::vector<float> values_;   ///< [life][step][channel]
 };

@@ -3,6 +3,7 @@
 #include <lore/core/checksum.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
+#include <lore/core/installation.h>
 #include <lore/world/library.h>
 
 #include <algorithm>
@@ -21,9 +22,8 @@ namespace {
 
 /// Of an installed Lore: bin/lore-world and lib/lore/worlds.
 fs::path installed_worlds() {
-    std::error_code failed;
-    fs::path const program = fs::read_symlink("/proc/self/exe", failed);
-    return failed ? fs::path{} : program.parent_path().parent_path() / LORE_LIBRARY_FOLDER / "lore" / "worlds";
+    fs::path const program = own_program();
+    return program.empty() ? program : program.parent_path().parent_path() / LORE_LIBRARY_FOLDER / "lore" / "worlds";
 }
 
 std::vector<std::string> places_to_look(std::string const& folder) {

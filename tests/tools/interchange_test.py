@@ -284,6 +284,15 @@ def damage_is_found():
         check(missed == 0, f"a flipped bit anywhere in {archive} is found, is refused where it is unpacked, or changes no file")
 
 
+def a_pack_is_of_the_campaign_that_made_its_runs():
+    pathlib.Path("campaigns/other.toml").write_text("first_seed = 900\n" + CAMPAIGN)
+    _, complaint = lore("pack", "campaigns/other.toml", "--dir", "c", "--out", "other.zip", code=2)
+    check("it has seed" in complaint and "Give the campaign" in complaint,
+          f"runs of another campaign are not packed ({complaint.strip()})")
+    check(not pathlib.Path("other.zip").exists(), "and nothing is written")
+    pack("p.zip", "--date", "2026-13-45", code=2)
+
+
 def a_pack_is_all_or_nothing():
     pack("p.zip", code=2)
     with open("c/notes.bin", "wb") as file:
@@ -457,6 +466,7 @@ with tempfile.TemporaryDirectory(prefix="lore-interchange-") as scratch:
     events_tell_what_the_files_tell()
     events_follow_a_run_to_its_end()
     the_example_of_the_manual_feeds_a_tracker()
+    a_pack_is_of_the_campaign_that_made_its_runs()
     a_pack_is_all_or_nothing()
     a_campaign_in_another_world_goes_too()
     os.chdir("/")

@@ -406,6 +406,22 @@ TEST_F(LoreKb, leaves_the_former_file_where_a_build_fails) {
     EXPECT_EQ(read_knowledge_base(scratch.file("kb.lorekb")).size(), before.size());
 }
 
+TEST_F(LoreKb, writes_over_no_file_of_another_kind) {
+    expect_done("build run --out kb.lorekb");
+    auto const lineage = read_file(scratch.file("run/lineage.lore")), base = read_file(scratch.file("kb.lorekb")),
+               progress = read_file(scratch.file("run/progress.csv"));
+    expect_refusal("build run --out run/lineage.lore", 2, "it is a lineage archive");
+    expect_refusal("clone kb.lorekb --out kb.lorekb", 2, "it is a knowledge base");
+    expect_refusal("export kb.lorekb --csv kb.lorekb", 2, "it is a knowledge base");
+    expect_refusal("query kb.lorekb --run run --csv run/progress.csv", 2, "it is a file of that run");
+    EXPECT_EQ(read_file(scratch.file("run/lineage.lore")), lineage);
+    EXPECT_EQ(read_file(scratch.file("kb.lorekb")), base);
+    EXPECT_EQ(read_file(scratch.file("run/progress.csv")), progress);
+    expect_done("reduce kb.lorekb --top 3 --out kb.lorekb");
+    expect_done("query kb.lorekb --run run --csv run/query.csv");
+    expect_done("query kb.lorekb --run run --csv run/query.csv");
+}
+
 TEST_F(LoreKb, explains_itself) {
     EXPECT_THAT(run("--help").output, HasSubstr("Examples"));
     EXPECT_THAT(run("build --help").output, HasSubstr("--individual"));

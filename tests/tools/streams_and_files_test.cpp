@@ -55,6 +55,14 @@ TEST_F(Streams, for_progress_that_cannot_be_written_stop_no_run) {
     }
 }
 
+TEST_F(Streams, that_nobody_reads_any_more_end_events) {
+    ASSERT_EQ(shell("$evolve -q").exit_code, 0);
+    test::Ran const ran =
+        shell("mkdir all; mv run all/run; (timeout 60 $campaign events all --follow; echo $? >code) | head -n 1");
+    EXPECT_EQ(file_text(scratch.file("code")), "1\n") << ran.errors;
+    EXPECT_THAT(ran.errors, HasSubstr("cannot write the result to stdout (Broken pipe)"));
+}
+
 TEST_F(Streams, for_the_signature_that_cannot_be_written_end_a_saved_run_with_one_line) {
     for (char const* const line :
          {"$evolve -q >/dev/full", "$evolve -q >&-", "exec 3> >(exec true); wait $!; $evolve -q >&3"}) {

@@ -1,10 +1,13 @@
 #include "subcommand.h"
 
 #include <lore/campaign/stop_signals.h>
+#include <lore/core/standard_streams.h>
 #include <lore/core/stopwatch.h>
 #include <lore/watch/events.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 namespace lore::campaign_program {
 
@@ -29,6 +32,8 @@ ExitCode print_events(Arguments const& arguments) {
         // Looking takes at most a twentieth of a core.
         signals.sleep(std::max(1.0, 20 * watch.total()));
         if (signals.requests() > 0) break;
+        if (stdout_has_lost_its_reader())
+            throw Error("cannot write the result to stdout", std::strerror(EPIPE), "Send it where it can be written.");
     }
     if (!arguments.follow && reader.runs() == 0)
         throw UsageError(fmt::format("there is no run in {}", arguments.directory),

@@ -8,6 +8,7 @@
 
 #include "subcommand.h"
 
+#include <lore/core/installation.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/experiment/version.h>
 
@@ -51,9 +52,8 @@ constexpr char help[] =
 
 /// The directory of this program, if its companions lie there too; else empty, and the shell finds them.
 std::string companions() {
-    std::error_code failed;
-    auto const here = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
-    return !failed && std::filesystem::exists(here / "lore-evolve") ? here.string() : "";
+    auto const here = std::filesystem::path{own_program()}.parent_path();
+    return !here.empty() && std::filesystem::exists(here / "lore-evolve") ? here.string() : "";
 }
 
 /// A run has a manifest where a campaign has none; what is not there yet can be made or waited for.
@@ -80,7 +80,7 @@ int start(int argc, char** argv) {
 
     if (auto const only = parse_command_line(app, argc, argv)) return *only;
     if (!app.got_subcommand(events.name)) refuse_other_than_campaign(arguments.directory);   // events are of a run, too
-    arguments.runner.launcher.campaign_program = std::filesystem::read_symlink("/proc/self/exe").string();
+    if (std::string const self = own_program(); !self.empty()) arguments.runner.launcher.campaign_program = self;
     if (arguments.runner.launcher.programs.empty()) arguments.runner.launcher.programs = companions();
     for (Subcommand const* const subcommand : subcommands)
         if (app.got_subcommand(subcommand->name)) return static_cast<int>(subcommand->work(arguments));

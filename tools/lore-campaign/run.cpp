@@ -43,9 +43,17 @@ void refuse_missing_launcher(Launcher const& launcher) {
                      "out --ranks.");
 }
 
+void refuse_missing_programs(std::string const& folder) {
+    for (char const* const program : {"lore-evolve", "lore-kb"})
+        if (!folder.empty() && !is_program(folder + "/" + program))
+            throw UsageError(fmt::format("cannot start {}", program), fmt::format("there is none in {}", folder),
+                             "Name the folder of Lore's programs with --programs.");
+}
+
 ExitCode run_steps(Arguments const& arguments) {
     RunnerOptions options = arguments.runner;
     refuse_missing_launcher(options.launcher);
+    refuse_missing_programs(options.launcher.programs);
     int const cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     options.jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, cores / options.launcher.ranks);
     options.quiet = arguments.quiet;

@@ -4,8 +4,6 @@
 #include <lore/campaign/slurm.h>
 #include <lore/campaign/worlds.h>
 
-#include <filesystem>
-
 namespace lore::campaign_program {
 
 namespace {
@@ -31,9 +29,9 @@ ExitCode submit_steps(Arguments const& arguments) {
     if (arguments.concurrent > 0) campaign.cluster.concurrent = arguments.concurrent;
     campaign.cluster.options.insert(campaign.cluster.options.end(), arguments.cluster_options.begin(),
                                     arguments.cluster_options.end());
-    std::string const self = std::filesystem::read_symlink("/proc/self/exe").string();
-    for (std::string const& line : submit_campaign(campaign, CampaignDirectory{arguments.directory},
-                                                   arguments.runner.launcher, self, arguments.only_write))
+    Launcher const& launcher = arguments.runner.launcher;
+    for (std::string const& line : submit_campaign(campaign, CampaignDirectory{arguments.directory}, launcher,
+                                                   launcher.campaign_program, arguments.only_write))
         if (!arguments.quiet) fmt::print("{}\n", line);
     return ExitCode::done;
 }

@@ -71,15 +71,15 @@ void build(Program const& program, BuildOptions const& options) {
     ValueConfig const value = value_config(options.value, options.gamma, std::nullopt);
     check_evidence_of(options.all ? BuiltFrom::everybody : BuiltFrom::lineage, value.rule);
     std::vector<double> const gammas = gammas_of(options, value);
-    check_writable(options.out);
+    check_writable(options.out, FileKind::knowledge_base);
     IndexChoice const index = index_choice(options.index, options.checks);
     RunDirectory const run = open_run(options.run);
     KnowledgeConfig const config = config_of(options, run);
     if (value.rule == ValueRule::contrast) refuse_without_success(options, run);
     auto const individual = run.individual(options.individual.value_or("best"));
-    auto const total = static_cast<std::int64_t>(
-        options.all ? (archived_individuals(run) - 1) / static_cast<std::uint64_t>(options.every) + 1
-                    : lineage_of(*individual).size());
+    auto const every = static_cast<std::uint64_t>(options.every);
+    auto const total = static_cast<std::int64_t>(options.all ? (archived_individuals(run) + every - 1) / every
+                                                             : lineage_of(*individual).size());
     Progress progress{"building", total, "individuals", options.all ? 20000 : 500, program.quiet};
     BuildingObserver const observe = [&](std::int64_t done, std::int64_t features) {
         progress.update(done, fmt::format("{} features", features));

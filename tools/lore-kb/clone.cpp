@@ -45,7 +45,7 @@ void print_fit(Channels const& channels, Clones const& clones) {
 }
 
 void clone(Program const& program, CloneOptions const& options) {
-    check_writable(options.out);
+    check_writable(options.out, FileKind::founders);
     std::string const checksum = checksum_text(checksum_of_file(options.base));
     KnowledgeBase const base = read_knowledge_base(options.base);
     CloneConfig const& config = options.config;

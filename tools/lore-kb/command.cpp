@@ -78,7 +78,29 @@ void say(Program const& program, std::string const& line) {
     if (!program.quiet) fmt::print("{}\n", line);
 }
 
-void check_writable(std::string const& path) {
+namespace {
+
+/// A slip of the hand must not cost a base, or a run its table.
+void refuse_another_kind(std::string const& path, std::optional<FileKind> kind) {
+    std::filesystem::path const file{path};
+    if (!std::filesystem::is_regular_file(file)) return;
+    bool const in_run = std::filesystem::exists(file.parent_path() / run_file::config);
+    for (char const* const own : {run_file::config, run_file::arena, run_file::manifest, run_file::progress})
+        if (in_run && file.filename() == own)
+            throw UsageError(fmt::format("cannot write {}", path), "it is a file of that run", "Choose another name.");
+    std::optional<FileKind> there;
+    try {
+        there = kind_of_file(path);
+    } catch (Error const&) { return; }   // none of Lore's
+    if (there != kind)
+        throw UsageError(fmt::format("cannot write {}", path), fmt::format("it is a {}", name(*there)),
+                         "Choose another name, or move it away.");
+}
+
+}   // namespace
+
+void check_writable(std::string const& path, std::optional<FileKind> kind) {
+    refuse_another_kind(path, kind);
     std::filesystem::path const directory = std::filesystem::path{path}.parent_path();
     std::string const place = directory.empty() ? "." : directory.string();
     if (std::filesystem::is_directory(path))

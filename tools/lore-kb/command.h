@@ -2,6 +2,7 @@
 
 #include "program.h"
 
+#include <lore/archive/container.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/knowledge/index.h>
 #include <lore/knowledge/value.h>
@@ -65,8 +66,9 @@ extern CLI::Validator const a_finite_number;
 std::string made_by(Program const&);
 /// Prints a line unless --quiet was given.
 void say(Program const&, std::string const& line);
-/// Throws UsageError or Error if a file cannot be written at `path`: before long work is done for it.
-void check_writable(std::string const& path);
+/// Throws UsageError or Error if a file cannot be written at `path`: before long work is done for it. A
+/// file that is there already is written over only by one of its kind: `kind`, or none of Lore's.
+void check_writable(std::string const& path, std::optional<FileKind> kind = std::nullopt);
 /// Throws UsageError if windows of that length, of the knowledge base at `path`, are longer than the run's evaluations.
 void require_length(int window_length, RunDirectory const&, std::string const& path);
 /// The trace of an archived individual, by simulating it again. `individual` as RunDirectory::individual takes it.

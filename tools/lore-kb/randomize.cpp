@@ -14,7 +14,7 @@ struct RandomizeOptions {
 };
 
 void randomize(Program const& program, RandomizeOptions const& options) {
-    check_writable(options.out);
+    check_writable(options.out, FileKind::knowledge_base);
     KnowledgeBase const base = read_knowledge_base(options.base);
     write_derived(program, options.out,
                   options.permute ? permute(base, options.seed) : lore::randomize(base, options.seed), {options.base});

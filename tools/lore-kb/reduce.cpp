@@ -21,7 +21,7 @@ void reduce(Program const& program, ReduceOptions const& options) {
     if (rules != 1)
         throw UsageError("cannot reduce", "one rule is needed",
                          "Give one of --top, --min-value, --min-count and --consensus.");
-    check_writable(options.out);
+    check_writable(options.out, FileKind::knowledge_base);
     KnowledgeBase const base = read_knowledge_base(options.base);
     auto const write = [&](KnowledgeBase const& derived, std::vector<std::string> const& sources) {
         write_derived(program, options.out, derived, sources);

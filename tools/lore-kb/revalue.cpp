@@ -15,7 +15,7 @@ struct RevalueOptions {
 
 void revalue(Program const& program, RevalueOptions const& options) {
     ValueConfig const value = value_config(options.value, options.gamma, options.success);
-    check_writable(options.out);
+    check_writable(options.out, FileKind::knowledge_base);
     write_derived(program, options.out, lore::revalue(read_knowledge_base(options.base), value), {options.base});
 }
 

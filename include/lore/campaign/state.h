@@ -4,6 +4,7 @@
 #include <lore/world/reward_text.h>
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace lore {
@@ -15,6 +16,7 @@ std::string_view name(StepStatus);
 struct StepState {
     StepStatus status = StepStatus::missing;
     std::string reason;    ///< for people: "at generation 1200 of 4000", "exit code 1: ..."
+    bool other = false;    ///< failed, since it is a finished run of another seed, of other settings or other inputs
     int generation = 0;    ///< of a run, as progress.csv says
     int generations = 0;   ///< that it is to reach
     double best_reward = 0;
@@ -35,6 +37,9 @@ struct StepWithState {
 };
 /// All steps of the campaign in their order; the reason of a missing one is what it waits for.
 std::vector<StepWithState> states_of(CampaignPlan const&, CampaignDirectory const&);
+
+/// The finished run of these treatments with most reward, the first among equals by their order; null if there is none.
+StepWithState const* best_finished_run(std::span<StepWithState const>, std::span<std::string const> treatments);
 
 /// The recorded choice from the runs of a source task, or nothing.
 std::optional<Choice> recorded_choice(CampaignDirectory const&, std::string const& source);

@@ -18,7 +18,8 @@ public:
     /// Does items first .. last - 1, as thread number `thread`: no two threads have one number at the same time.
     using Work = std::function<void(std::size_t thread, std::size_t first, std::size_t last)>;
 
-    /// Of so many threads in all, at least 1: the one that hands out, `guests`, and the rest, which it starts.
+    /// Of so many threads in all, at least 1: the one that hands out, `guests`, and the rest, which it starts. Throws
+    /// Error where the system does not give so many.
     explicit Crew(int threads, int guests = 0);
     /// Guests must be gone.
     ~Crew();
@@ -37,6 +38,7 @@ public:
 private:
     bool has_work() const { return open_ && taken_ < count_; }
     void join_in(std::unique_lock<std::mutex>&);
+    void dismiss();
     void take_shares(std::size_t thread);
 
     int threads_;

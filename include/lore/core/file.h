@@ -41,6 +41,9 @@ Error file_error(std::string_view verb, std::string const& path, int error_numbe
 /// All of it, whatever the kernel takes at a time. Throws file_error("write", path).
 void write_fully(int descriptor, std::span<std::byte const> content, std::string const& path);
 
+/// What was written is on the disk when it returns. Throws file_error("write", path).
+void sync_file(int descriptor, std::string const& path);
+
 /// Whether a file, a directory or anything else has this name. Throws Error where that cannot be told, such as without
 /// permission to look.
 bool is_there(std::string const& path);

@@ -4,6 +4,9 @@
 
 namespace lore {
 
+/// The path of the program that runs; empty where the system does not tell.
+std::string own_program();
+
 /// The directory of tasks, campaigns and batch scripts that belongs to this program: share/lore/jobs beside an
 /// installed one, jobs of the repository for one in a build folder of it; empty where there is neither.
 std::string jobs_directory();

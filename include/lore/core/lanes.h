@@ -170,12 +170,6 @@ LORE_INLINE IntOf<F> truncate(F const& x) {
     else return __builtin_convertvector(x, IntOf<F>);
 }
 
-template <class F>
-LORE_INLINE F to_float(IntOf<F> const& i) {
-    if constexpr (std::is_same_v<F, float>) return static_cast<float>(i);
-    else return __builtin_convertvector(i, F);
-}
-
 /// The nearest integer, halves to even, as float and as integer at the cost of two additions. Precondition: |x| < 2^22.
 template <class F>
 struct Rounded {

@@ -21,4 +21,7 @@ void write_stderr(std::string_view text) noexcept;
 /// reason ("No space left on device"), empty where it is written. A failure is remembered.
 std::string why_stdout_is_lost();
 
+/// Whether stdout is a pipe whose reader has gone: nothing printed from now on will be read.
+bool stdout_has_lost_its_reader();
+
 }   // namespace lore

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <lore/core/file.h>
 #include <lore/evolution/summary.h>
 
 #include <cstdint>
@@ -32,9 +33,6 @@ public:
     /// A new file with its header, or an old one cut back to `bytes` (not 0), which keeps the columns it has.
     /// Throws Error, also if the old one is shorter, or its header is not one of progress.csv.
     ProgressWriter(std::string path, std::uint64_t bytes, std::string_view reward_unit);
-    ~ProgressWriter();
-    ProgressWriter(ProgressWriter const&) = delete;
-    ProgressWriter& operator=(ProgressWriter const&) = delete;
     void add(GenerationSummary const&);
     /// Makes the rows so far durable; returns the file's length.
     std::uint64_t sync();
@@ -43,7 +41,7 @@ private:
     void write(std::string_view line);
     std::string path_;
     std::vector<ProgressColumn const*> columns_;
-    int file_ = -1;
+    FileDescriptor file_;
     std::uint64_t bytes_ = 0;
 };
 

@@ -33,6 +33,8 @@ struct RunDirectory {
 };
 /// Throws Error: no such directory, no run in it, not finished yet (no lineage), or a damaged file.
 RunDirectory open_run(std::string const& path);
+/// Likewise of a run that is not finished: its lineage is empty.
+RunDirectory open_unfinished_run(std::string const& path);
 
 /// "12.7": generation and slot, as users type and read it.
 std::string text(IndividualId);

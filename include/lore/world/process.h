@@ -21,9 +21,9 @@ struct WorldProcess {
 /// The program is started once, in a process group of its own, and lives as long as the World: its input is closed
 /// then, and what is left of the group 2 s later is killed. On Linux it is killed too where the thread that started it
 /// dies. A step of a batch is one frame each way. Each value that comes back is checked: Life and Lives throw Error
-/// with the world, the step and the reason where a value is wrong as in library.h, and where the program ends, fails,
-/// sends something else than the answer, or does not answer in time; such a program is killed, and every later call
-/// throws the same. From the first world on this program ignores SIGPIPE, unless it handles it.
+/// with the world, the step and the reason where a value is wrong as in library.h. They throw it, too, where the
+/// program ends, fails, sends something else than the answer, or does not answer in time; it is killed then, and every
+/// later call throws the same. From the first world on this program ignores SIGPIPE, unless it handles it.
 ///
 /// Throws UsageError where the program cannot be started or refuses the settings; Error where it ends, fails, sends
 /// something else or is silent, is of another version, or states facts that break a rule.

@@ -131,6 +131,12 @@ TEST(FailedEvaluation, ends_all_ranks_names_the_individual_and_keeps_its_genome)
                                              std::to_string(failed.id.slot)))
             << id;
         EXPECT_GE(failed.genome.edges.size(), 30u);
+        // It did not fail for what it is.
+        Command again{scratch,
+                      {program("lore-replay"), directory, "--individual", "failed", "--out", directory + "/again"}};
+        EXPECT_EQ(again.wait(), 0) << again.err();
+        EXPECT_THAT(again.out(), HasSubstr("individual " + std::to_string(failed.id.generation)));
+        EXPECT_TRUE(exists(directory + "/again/trajectory.svg"));
     }
 }
 
@@ -165,6 +171,7 @@ TEST(DamagedMessage, ends_all_ranks_within_seconds) {
     EXPECT_EQ(command.wait(), 1);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{20});
     EXPECT_THAT(command.err(), HasSubstr("a message with evaluations"));
+    EXPECT_FALSE(exists(directory + "/failed-genome.lore")) << "no genome is to blame";
 }
 
 TEST(OutOfMemory, in_the_midst_of_evolution_ends_all_ranks_with_one_line) {

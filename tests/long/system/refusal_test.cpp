@@ -62,6 +62,10 @@ TEST(CommandLine, mistakes_are_one_line_and_exit_code_2) {
                                                {evolve_, config, "--out", out, "--archive", "some"},
                                                {evolve_, config, "--out", out, "--max-time", "soon"},
                                                {evolve_, config, "--out", out, "--max-time", ""},
+                                               {evolve_, config, "--out", out, "--max-time", "0:99:99"},
+                                               {evolve_, "--bench", "--out", out},
+                                               {evolve_, "--bench", config},
+                                               {evolve_, config, "--out", out, "--founders", scratch.file("\xff")},
                                                {evolve_, config, "--out", out, "--kb", ""},
                                                {evolve_, config, "--out", out, "--seed", "-1"},
                                                {evolve_, config, "--out", out, "--seed", "0x10"},
@@ -300,6 +304,24 @@ TEST(Resume, refuses_what_contradicts_the_run) {
     Refusal const said = refusal(scratch, {program("lore-evolve"), "--resume", "--out", directory});
     EXPECT_EQ(said.code, 2);
     EXPECT_THAT(said.line, HasSubstr("was changed since its checkpoint"));
+}
+
+TEST(Verify, finds_that_a_killed_run_could_not_go_on) {
+    Scratch const scratch;
+    std::string const run = scratch.file("run"), progress = run + "/progress.csv";
+    {
+        Command killed{scratch, evolve(small_config(scratch, endless), run)};
+        ASSERT_TRUE(killed.wait_until([&] { return exists(run + "/checkpoint.lore"); }));
+    }
+    std::vector<std::string> const verify{program("lore-kb"), "verify", run};
+    Command whole{scratch, verify};
+    EXPECT_EQ(whole.wait(), 0) << whole.err();
+    std::string const rows = file_text(progress), first = rows.substr(0, rows.find('\n') + 1);
+    ASSERT_GT(rows.size(), first.size());
+    std::ofstream{progress} << first;
+    Refusal const cut = refusal(scratch, verify);
+    EXPECT_EQ(cut.code, 1);
+    EXPECT_THAT(cut.line, HasSubstr("progress.csv was cut"));
 }
 
 TEST(Resume, falls_back_to_the_older_checkpoint_with_a_warning) {

@@ -156,6 +156,18 @@ TEST(Checkpoint, of_a_newer_lore_is_left_where_it_is) {
     EXPECT_EQ(read_file(older), older_bytes);
 }
 
+TEST(Checkpoint, that_cannot_be_read_for_now_is_left_where_it_is) {
+    Scratch const scratch;
+    std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");
+    for (int generation : {1, 2}) write_checkpoint(path, older, checkpoint_at(generation));
+    auto const older_bytes = read_file(older);
+    std::filesystem::rename(path, scratch.file("kept"));
+    std::filesystem::create_directory(path);   // opens, and cannot be read
+    EXPECT_THROW(read_checkpoint(path, older), Error);
+    EXPECT_TRUE(std::filesystem::is_directory(path));
+    EXPECT_EQ(read_file(older), older_bytes);
+}
+
 TEST(Checkpoint, never_keeps_a_damaged_one_in_place_of_the_whole_one) {
     Scratch const scratch;
     std::string const path = scratch.file("checkpoint.lore"), older = scratch.file("older.lore");

@@ -146,6 +146,11 @@ TEST(Messages, answer_bytes_that_nobody_wrote_with_an_error) {
     for (std::size_t length = 0; length < result.size(); ++length)
         EXPECT_THROW(unpack_deliveries(std::span{result}.first(length)), Error);
 
+    Genome lost = genomes[0];
+    lost.edges[0].target = 255;   // no such neuron
+    Genome const* const sent[]{&lost};
+    EXPECT_THROW(unpack_genomes(pack_genomes(sent)), Error);
+
     auto const evaluations = PretendedEvaluator{100}.evaluate(pointers_to(genomes));
     Descriptors const* const members[]{&evaluations[0].descriptors, &evaluations[1].descriptors};
     std::vector<double> numbers(9);

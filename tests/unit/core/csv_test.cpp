@@ -40,6 +40,10 @@ TEST(CsvTable, gives_fields_by_row_and_column_without_spaces_empty_lines_and_car
     EXPECT_FALSE(read.has("counts"));
 }
 
+TEST(CsvTable, takes_the_byte_order_mark_of_a_spreadsheet) {
+    EXPECT_TRUE(table("\xef\xbb\xbfname,unit\na,b\n").has("name"));
+}
+
 TEST(CsvTable, takes_fields_between_quotes) {
     CsvTable const read =
         table("\"name\",unit\n \"a, b\" ,\"\"\n\" 5\"\" x \",\"1\"\nx \"y\",\"open\n\"a\"b,\"\"\"\"\n");

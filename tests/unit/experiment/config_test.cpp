@@ -234,6 +234,8 @@ TEST(Config, names_a_world_with_settings_that_come_back_and_can_be_overridden) {
     EXPECT_EQ(config.world.settings, "length = 1.5\ntask = \"short_pole\"\n");
     ExperimentConfig const back = parse(to_toml(config));
     EXPECT_TRUE(differing_settings(back, config).empty()) << lore::text(differing_settings(back, config));
+    EXPECT_EQ(to_toml(config).find("\narena = "), std::string::npos) << "the run is in none";
+    EXPECT_EQ(to_toml(config).find("\ntask = \"source\""), std::string::npos);
     ExperimentConfig const longer = parse(text, {"world.settings.length=2", "world.settings.mass=0.5"});
     EXPECT_EQ(longer.world.settings, "length = 2\nmass = 0.5\ntask = \"short_pole\"\n");
     ExperimentConfig const words = parse(text, {"world.settings.task=long_pole", "world.settings.free=true"});

@@ -4,6 +4,7 @@
 #include "support/pointers.h"
 
 #include <lore/archive/messages.h>
+#include <lore/behavior/distance_matrix.h>
 #include <lore/collectball/replay.h>
 #include <lore/core/error.h>
 #include <lore/core/isa.h>

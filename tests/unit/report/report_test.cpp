@@ -259,6 +259,18 @@ TEST_F(Report, refuses_a_directory_without_results_and_damaged_tables) {
                 ::testing::HasSubstr("population.csv tells of a treatment 'kb9'"));
 }
 
+TEST_F(Report, refuses_a_campaign_that_none_of_the_runs_belongs_to_and_keeps_the_tables) {
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::string const tables = made("final.csv");
+    std::string text = test::small_campaign;
+    text.replace(text.find("generations = 20"), 16, "generations = 10");
+    write("campaign.toml", text);
+    EXPECT_THAT(test::complaint_of([&] { write_report(plan(), directory()); }),
+                ::testing::HasSubstr("was made with evolution.generations"));
+    EXPECT_EQ(made("final.csv"), tables);
+}
+
 TEST_F(Report, of_another_reward_has_its_unit_and_can_be_made_again_from_its_tables) {
     write("campaign.toml", test::small_campaign + "[[pool]]\nname = \"with\"\ntreatments = [\"kb1\", \"all\"]\n"
                                                   "against = [\"none\"]\n");
