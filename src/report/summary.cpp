@@ -175,4 +175,14 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, Findi
     return document.dump(2) + "\n";
 }
 
+std::vector<std::string> tasks_in_summary(std::string_view text) {
+    std::vector<std::string> tasks;
+    Json const document = Json::parse(text, nullptr, false);
+    if (!document.is_object() || !document.contains("treatments")) return tasks;
+    for (Json const& entry : document["treatments"])
+        if (entry.is_object() && entry.contains("target") && entry["target"].is_string())
+            tasks.push_back(entry["target"]);
+    return tasks;
+}
+
 }   // namespace lore

@@ -85,8 +85,11 @@ TEST_F(Report, keeps_no_figure_of_a_former_one) {
     ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
     std::filesystem::create_directories(scratch.file("c/figures"));
     write("c/figures/figure5.svg", "of a campaign with other bases");
+    write("c/figures/figure3_pole.svg", "of a campaign with a task more");
+    write("c/summary.json", R"({"treatments": [{"treatment": "pole_from_none", "target": "pole"}]})");
     write("c/figures/figure3_for_a_talk.svg", "of the user");
     write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure3_pole.svg")));
     EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3_for_a_talk.svg")));
     EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
     EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3.svg")));
@@ -375,6 +378,7 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     Replay replay{"source/001", "00000000000000aa", "cos", {2, 1, "<g id=\"pole\"></g>"}, {}, {}};
     for (int k = 0; k < 40; ++k) replay.steps.push_back({0.05f * static_cast<float>(k), 0.5f, -0.25 * k});
     write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}}});
+    write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
     write_report(plan(), directory());
     std::string const page = made("report.html"), figure = made("figures/figure5.svg");
     EXPECT_NE(figure.find("<g id=\"pole\"></g>"), std::string::npos);
@@ -386,6 +390,10 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     EXPECT_NE(page.find("[39,-9.75]"), std::string::npos) << "the reward so far";
     EXPECT_NE(page.find("encodeURIComponent(scene)"), std::string::npos) << "the script for worlds";
     EXPECT_EQ(page.find("balls"), std::string::npos);
+    write("campaign.toml", test::small_campaign);
+    write_report(plan(), directory());
+    EXPECT_EQ(made("report.html").find("id=\"replay\""), std::string::npos) << "it is no longer asked for";
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
 }
 
 TEST_F(Report, shows_whole_windows_of_a_life_that_their_length_does_not_divide) {
@@ -397,6 +405,7 @@ TEST_F(Report, shows_whole_windows_of_a_life_that_their_length_does_not_divide) 
     for (int k = 0; k < 45; ++k) replay.steps.push_back({static_cast<float>(k), static_cast<float>(k % 2), 0});
     double const none = std::numeric_limits<double>::quiet_NaN();
     write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, none}, "c", 20}}});
+    write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
     write_report(plan(), directory());
     EXPECT_NE(made("report.html").find("\"values\":[-0.5,null],\"window_length\":20"), std::string::npos);
     // Of the path, window by window: the line of the first in its color, the others in gray.
