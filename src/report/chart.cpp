@@ -180,9 +180,6 @@ std::size_t stack(std::vector<Bracket>& brackets) {
     return levels;
 }
 
-/// About so many pixels are taken by a label; wide letters take a tenth more.
-double text_width(std::string_view label) { return 6.5 * static_cast<double>(label.size()); }
-
 void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& rewards,
               std::string_view color) {
     constexpr double half = 26, whisker = 13;
@@ -242,7 +239,7 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     make_room_for_labels(frame, counts);
 
     double width = frame.right + 216;
-    for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + 1.1 * text_width(curve.label));
+    for (Curve const& curve : curves) width = std::max(width, frame.right + 48 + text_width(curve.label));
     SvgDocument svg{width, frame.bottom + 56, fmt::format("Mean {} of the best-of-run by generation", words.number_of)};
     draw_reward_axis(svg, frame, counts, words.collected + " (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {
