@@ -377,7 +377,8 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     ::unsetenv("LORE_FAKE_UNIT");
     Replay replay{"source/001", "00000000000000aa", "cos", {2, 1, "<g id=\"pole\"></g>"}, {}, {}};
     for (int k = 0; k < 40; ++k) replay.steps.push_back({0.05f * static_cast<float>(k), 0.5f, -0.25 * k});
-    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}}});
+    write_replays(directory(),
+                  {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}, {"figure6", "kb1*kb2", {0.5, 0.25}, "c"}}});
     write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
     write_report(plan(), directory());
     std::string const page = made("report.html"), figure = made("figures/figure5.svg");
@@ -385,6 +386,12 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     EXPECT_NE(page.find("%3Cg%20id%3D%22pole%22%3E%3C%2Fg%3E"), std::string::npos) << "as an image";
     EXPECT_EQ(page.find("<g id=\"pole\""), std::string::npos) << "where a scene could run scripts";
     EXPECT_NE(figure.find("value (cos)"), std::string::npos);
+    EXPECT_EQ(figure.find("stroke=\"#08306b\" stroke-width=\"2.8\""), std::string::npos) << "which is for 0";
+    EXPECT_NE(figure.find("stroke=\"#deebf7\" stroke-width=\"2.8\""), std::string::npos) << "the lowest value";
+    EXPECT_THAT(page,
+                ::testing::HasSubstr("alt=\"Path of the best-of-run of source/001, colored by the values of kb1\""));
+    EXPECT_THAT(made("figures/figure6.svg"), ::testing::HasSubstr("product of the values (cos\u00b2)"));
+    EXPECT_EQ(page.find("(-1: not found)"), std::string::npos) << "as -1 is a value here";
     EXPECT_NE(page.find("\"world\":{\"width\":2.0"), std::string::npos);
     EXPECT_NE(page.find("\\u003cg id=\\\"pole\\\">"), std::string::npos) << "which cannot end the script";
     EXPECT_NE(page.find("[39,-9.75]"), std::string::npos) << "the reward so far";

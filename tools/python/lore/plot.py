@@ -3,7 +3,7 @@
     python3 -m lore.plot runs/small --out figures --formats svg png
 
 The functions return matplotlib Figures that belong to no window; save one with figure.savefig("figure3.svg"). Colors
-are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from white to dark for values.
+are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from pale to dark for values.
 """
 from __future__ import annotations
 
@@ -32,9 +32,10 @@ from .table import Table
 
 COLORS = ("#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7")
 VALUE_COLORS = LinearSegmentedColormap.from_list(
-    "lore", ["#ffffff", "#deebf7", "#abd0e6", "#6baed6", "#3787c0", "#105ba4", "#08306b"]
+    "lore", ["#deebf7", "#abd0e6", "#6baed6", "#3787c0", "#105ba4", "#08306b"]
 )
 _SOURCE_COLOR, _GRAY, _WALL = "#777777", "#8c8c8c", "#3a3a3a"
+_DASHES = ((5, 3), (1.5, 1.5), (7, 2.5, 1.5, 2.5), (7, 1.5, 1.5, 1.5, 1.5, 1.5))
 _STEPS_BETWEEN_ROBOTS = 50
 
 
@@ -51,8 +52,8 @@ def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
     axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report, task)} (mean of best-of-runs)")
     sources = report.sources if task is None else []
-    dashed = {"color": _SOURCE_COLOR, "dashes": (5, 3)}
-    for treatment, style in [*((source, dashed) for source in sources), *_styles(treatments)]:
+    of_sources = [(name, {"color": _SOURCE_COLOR, "dashes": _DASHES[i % len(_DASHES)]}) for i, name in enumerate(sources)]
+    for treatment, style in [*of_sources, *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
         if len(rows) == 0 or (task is None and not _has_unit(report, treatment)):
             continue
@@ -186,11 +187,12 @@ def _has_unit(report: Report, treatment: str) -> bool:
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     """Color by place, as in the report; dashed from the eighth on."""
-    dashed: dict[str, Any] = {"dashes": (5, 3)}
-    return [
-        (name, {"color": COLORS[i % len(COLORS)], **(dashed if i >= len(COLORS) else {})})
-        for i, name in enumerate(treatments)
-    ]
+
+    def style(i: int) -> dict[str, Any]:
+        color, turn = COLORS[i % len(COLORS)], i // len(COLORS) % (len(_DASHES) + 1)
+        return {"color": color, "dashes": _DASHES[turn - 1]} if turn > 0 else {"color": color}
+
+    return [(name, style(i)) for i, name in enumerate(treatments)]
 
 
 def _side_by_side(rewards: NDArray[Any]) -> NDArray[np.float64]:
