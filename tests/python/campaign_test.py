@@ -156,7 +156,8 @@ class SeveralTasks(LoreTest):
                              "world": {"width": 2, "height": 1, "svg": "<rect width='1' height='1' fill='#ff0000'/>"}}],
                 "panels": [{"figure": "figure5", "knowledge": "pole", "checksum": "0"}],
             }),
-            "summary.json": json.dumps({"sources": ["arena", "pole"], "treatments": treatments}),
+            "summary.json": json.dumps({"sources": ["arena", "pole"], "treatments": treatments,
+                                        "knowledge": [{"knowledge": "pole", "label": "the pole's lineage"}]}),
         }  # fmt: skip
         for name, text in files.items():
             (self.report / name).write_text(text)
@@ -238,6 +239,7 @@ class SeveralTasks(LoreTest):
         self.assertEqual(pixels[10, 10].tolist()[:3], pixels[-10, 10].tolist()[:3])
         self.assertNotEqual(pixels[10, 10].tolist(), pixels[10, -10].tolist(), "the left half is red")
         self.assertEqual(panel.axes[1].get_ylabel(), "value (cos)")
+        self.assertEqual(panel.texts[0].get_text(), "(a) values from the pole's lineage")
         legend = [text.get_text() for text in panel.axes[0].get_legend().get_texts()]
         self.assertEqual(legend, ["start", "end", "not in the knowledge base"])
 
@@ -321,7 +323,7 @@ class Figures(LoreTest):
 
     def test_break_a_long_title(self) -> None:
         summary = json.loads((PAPER / "summary.json").read_text())
-        for entry in summary["treatments"]:
+        for entry in summary["knowledge"]:
             entry["label"] = "knowledge of a robot that " + "went on and " * 10 + "on"
         copy = self.scratch / "long"
         shutil.copytree(PAPER, copy)

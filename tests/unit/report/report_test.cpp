@@ -79,6 +79,24 @@ TEST_F(Report, works_over_an_unfinished_campaign_and_says_so) {
     EXPECT_NE(made("report.html").find("not complete"), std::string::npos);
 }
 
+TEST_F(Report, has_no_standard_deviation_of_one_run) {
+    RunnerOptions some = options();
+    some.only = {"none/002"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_THAT(made("summary.json"), ::testing::HasSubstr("\"standard_deviation\": null"));
+}
+
+TEST_F(Report, tells_programs_the_label_of_a_knowledge_base_that_is_not_its_name) {
+    std::string text = test::small_campaign;
+    write("campaign.toml", text.replace(text.find("balls = 6"), 9, "balls = 6\nlabel = \"the best\""));
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::string const summary = made("summary.json");
+    EXPECT_THAT(summary, ::testing::ContainsRegex("\"knowledge\": \"kb1\",\n *\"label\": \"the best\""));
+    EXPECT_THAT(summary, ::testing::ContainsRegex("\"knowledge\": \"kb2\",\n *\"kind\""));
+}
+
 TEST_F(Report, keeps_no_figure_of_a_former_one) {
     RunnerOptions some = options();
     some.only = {"source"};

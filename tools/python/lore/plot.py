@@ -229,7 +229,7 @@ def _has_panels(report: Report, figure: str) -> bool:
 
 
 def _panels(report: Report, figure_name: str) -> Figure:
-    scenes, values, names = report.scenes, report.values.where(figure=figure_name), report.labels
+    scenes, values, names = report.scenes, report.values.where(figure=figure_name), report.knowledge_labels
     name = next(iter(scenes), "")  # the source run that the figures show comes first
     steps = report.replay.where(replay=name)
     if len(steps) == 0:

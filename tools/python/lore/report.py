@@ -238,8 +238,8 @@ class Report:
 
     @property
     def labels(self) -> dict[str, str]:
-        """The label of each treatment, in the order of figures, the source's first, and pool; the name of each knowledge
-        base.
+        """The label of each treatment, in the order of figures, the source's first, and pool; of a knowledge base
+        whose name none of them has.
 
         Where summary.json is missing, the names of treatments serve as labels, in the order of final.csv.
         """
@@ -247,14 +247,24 @@ class Report:
         if not os.path.exists(self._file("summary.json")):
             return labels
         try:
-            summary = self.summary
-            for entry in summary.get("pools", []):
+            for entry in self.summary.get("pools", []):
                 labels.setdefault(entry["pool"], entry["label"])
-            for entry in summary.get("knowledge", []):
-                labels.setdefault(entry["knowledge"], entry["knowledge"])
         except (KeyError, TypeError, AttributeError) as error:
-            raise Damaged(self._file("summary.json"), f"it does not describe pools and knowledge: {error!r}") from error
+            raise Damaged(self._file("summary.json"), f"it does not describe pools: {error!r}") from error
+        for name, label in self.knowledge_labels.items():
+            labels.setdefault(name, label)
         return labels
+
+    @property
+    def knowledge_labels(self) -> dict[str, str]:
+        """The label of each knowledge base; empty where summary.json is missing."""
+        if not os.path.exists(self._file("summary.json")):
+            return {}
+        try:
+            bases = self.summary.get("knowledge", [])
+            return {str(entry["knowledge"]): str(entry.get("label", entry["knowledge"])) for entry in bases}
+        except (KeyError, TypeError, AttributeError) as error:
+            raise Damaged(self._file("summary.json"), f"it does not describe knowledge: {error!r}") from error
 
     def _treatments(self) -> dict[str, str]:
         """The label of each treatment, in the order of figures."""
