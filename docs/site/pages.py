@@ -112,8 +112,9 @@ def write_gallery(source, pages):
         title = write_campaign_page(source, pages, folder)
         place = folder.relative_to(source)
         shown = [figure(source, picture, f"[{title}]({place}/index.md).") for picture in sorted(folder.glob("*.svg"))]
-        lines += [f"## {title}", "", f"[The campaign, its question and its tables]({place}/index.md)", ""]
-        lines += ["::::{container} gallery", "", *shown, "::::", ""] * bool(shown)
+        if shown:
+            lines += [f"## {title}", "", f"[The campaign, its question and its tables]({place}/index.md)", ""]
+            lines += ["::::{container} gallery", "", *shown, "::::", ""]
     lines.append(contents([f"{folder.relative_to(source)}/index" for folder in folders]))
     write(pages / "gallery.md", "\n".join(lines))
     return "gallery"

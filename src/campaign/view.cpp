@@ -2,6 +2,7 @@
 
 #include <lore/campaign/board.h>
 #include <lore/campaign/time_left.h>
+#include <lore/core/column.h>
 #include <lore/core/progress.h>
 #include <lore/world/reward_text.h>
 
@@ -28,9 +29,9 @@ std::string best_text(Task const& task) {
     return fmt::format("{:<{}} ", best, reward_text(task.best_reward).size() + 1 + task.reward_unit.size());
 }
 
-std::string run_line(Task const& task) {
+std::string run_line(Task const& task, std::size_t width) {
     double const left = task.generation > 0 ? task.seconds / task.generation * (task.generations - task.generation) : 0;
-    return fmt::format("  {:<22} {} {:>6}/{}  best {}{}", task.step.name,
+    return fmt::format("  {:<{}} {} {:>6}/{}  best {}{}", task.step.name, width,
                        bar(static_cast<double>(task.generation) / task.generations, 20), task.generation,
                        task.generations, best_text(task), left > 0 ? fmt::format(" {} left", duration_text(left)) : "");
 }
@@ -39,10 +40,11 @@ std::string run_line(Task const& task) {
 
 std::vector<std::string> step_lines(std::vector<Task> const& tasks) {
     std::vector<std::string> lines;
+    std::size_t const width = column_width(22, tasks, [](Task const& task) { return task.step.name; });
     for (Task const& task : tasks) {
         if (task.phase != Phase::working) continue;
         bool const has_bar = is_run(task.step) && task.generations > 0;
-        lines.push_back(has_bar ? run_line(task) : fmt::format("  {:<22} at work", task.step.name));
+        lines.push_back(has_bar ? run_line(task, width) : fmt::format("  {:<{}} at work", task.step.name, width));
     }
     return lines;
 }

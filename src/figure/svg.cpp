@@ -1,5 +1,7 @@
 #include <lore/figure/svg.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <iterator>
@@ -26,6 +28,39 @@ std::size_t sequence_length(std::string_view bytes) {
     if (length == 3 && byte(0) == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe) return 0;
     if (length == 4 && ((byte(0) == 0xf0 && byte(1) < 0x90) || (byte(0) == 0xf4 && byte(1) > 0x8f))) return 0;
     return length;
+}
+
+/// The text's first character, or byte where there is none. Precondition: the text is not empty.
+std::string_view first_letter(std::string_view text) {
+    return text.substr(0, std::max<std::size_t>(1, sequence_length(text)));
+}
+
+/// Of a letter in DejaVu Sans, at size 1.
+double letter_width(std::string_view letter) {
+    static constexpr std::array<double, 95> ascii{
+        // from the space on
+        .318, .401, .460, .838, .636, .950, .780, .275, .390, .390, .500, .838, .318, .361, .318, .337,
+        .636, .636, .636, .636, .636, .636, .636, .636, .636, .636, .337, .337, .838, .838, .838, .531,
+        1.00, .684, .686, .698, .770, .632, .575, .775, .752, .295, .295, .656, .557, .863, .748, .787,
+        .603, .787, .695, .635, .611, .732, .684, .989, .685, .611, .685, .390, .337, .390, .838, .500,
+        .500, .613, .635, .550, .635, .615, .352, .635, .634, .278, .278, .579, .278, .974, .634, .612,
+        .635, .635, .411, .521, .392, .634, .592, .818, .592, .592, .525, .636, .337, .636, .838};
+    auto const place = static_cast<std::size_t>(static_cast<unsigned char>(letter.front())) - ' ';
+    if (place < ascii.size()) return ascii[place];
+    return letter >= "\xe1\x84\x80" ? 1 : 0.65;   // from U+1100 on, Hangul, most letters are as wide as high
+}
+
+/// Bytes of the longest beginning that is no wider than `most`, at least one letter.
+std::size_t bytes_within(std::string_view text, double most, Label const& label) {
+    std::size_t bytes = 0;
+    double width = 0;
+    while (bytes < text.size()) {
+        std::string_view const letter = first_letter(text.substr(bytes));
+        width += text_width(letter, label);
+        if (bytes > 0 && width > most) break;
+        bytes += letter.size();
+    }
+    return bytes;
 }
 
 std::string escaped(std::string_view content) {
@@ -70,6 +105,30 @@ std::string coordinates(std::span<SvgPoint const> points) {
 
 }   // namespace
 
+double text_width(std::string_view content, Label const& label) {
+    double width = 0;
+    while (!content.empty()) {
+        std::string_view const letter = first_letter(content);
+        width += letter_width(letter);
+        content.remove_prefix(letter.size());
+    }
+    return width * label.size * (label.bold ? 1.12 : 1);
+}
+
+std::vector<std::string> broken_into_lines(std::string_view content, double most, Label const& label) {
+    std::vector<std::string> lines;
+    for (;;) {
+        std::size_t const fits = bytes_within(content, most, label);
+        if (fits == content.size()) break;
+        std::size_t const space = content.rfind(' ', fits);
+        bool const at_space = space != std::string_view::npos && space > 0;
+        lines.emplace_back(content.substr(0, at_space ? space : fits));
+        content.remove_prefix(at_space ? space + 1 : fits);
+    }
+    lines.emplace_back(content);
+    return lines;
+}
+
 SvgDocument::SvgDocument(double width, double height, std::string_view title) {
     text_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
@@ -111,6 +170,13 @@ void SvgDocument::text(SvgPoint at, std::string_view content, Label const& label
                                                       number(at.x), number(at.y))
                                         : "",
                     escaped(content));
+}
+
+void SvgDocument::text(SvgPoint at, std::span<std::string const> lines, double height, Label const& label) {
+    for (std::string const& line : lines) {
+        text(at, line, label);
+        at.y += height;
+    }
 }
 
 void SvgDocument::begin_clip(SvgPoint corner, double width, double height) {

@@ -15,7 +15,8 @@ namespace lore {
 namespace {
 
 // Layout [pixels].
-constexpr double usual_plan_width = 780, tallest_plan = 1200, left_margin = 66, top_margin = 46, right_margin = 106;
+constexpr double usual_plan_width = 780, tallest_plan = 1200, left_margin = 66, top_margin = 46, title_height = 19,
+                 right_margin = 106;
 constexpr double bend = 0.3;   // too small to be seen
 constexpr double axis_room = 48, strip_height = 130, bottom_margin = 52, legend_height = 26, shortest_bar = 60;
 
@@ -27,15 +28,10 @@ double plan_width(float width, float height) {
     return ratio * usual_plan_width <= tallest_plan ? usual_plan_width : tallest_plan / ratio;
 }
 
-/// White to dark blue in steps of about equal lightness (Brewer's "Blues" with a white start).
+/// Pale to dark blue in steps of about equal lightness (Brewer's "Blues"); white would look as if it had no value.
 std::string blue(double share) {
-    static constexpr std::array<std::array<double, 3>, 7> stops{{{255, 255, 255},
-                                                                 {222, 235, 247},
-                                                                 {171, 208, 230},
-                                                                 {107, 174, 214},
-                                                                 {55, 135, 192},
-                                                                 {16, 91, 164},
-                                                                 {8, 48, 107}}};
+    static constexpr std::array<std::array<double, 3>, 6> stops{
+        {{222, 235, 247}, {171, 208, 230}, {107, 174, 214}, {55, 135, 192}, {16, 91, 164}, {8, 48, 107}}};
     double const at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
     std::size_t const i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     double const f = at - static_cast<double>(i);
@@ -56,12 +52,14 @@ double label_width(double least, double most, int count) {
 class Painter {
 public:
     Painter(float width, float height, Backdrop const& backdrop, TrajectoryPicture const& picture)
-        : backdrop_(backdrop), picture_(picture), plan_(plan_of(width, height)),
-          plan_bottom_(top_margin + plan_.scale * height),
+        : backdrop_(backdrop), picture_(picture),
+          title_(broken_into_lines(picture.title, plan_width(width, height) + right_margin - 10, title_label)),
+          plan_(plan_of(width, height, top_margin + title_height * (static_cast<double>(title_.size()) - 1))),
+          plan_bottom_(plan_.y.last),
           svg_(left_margin + plan_width(width, height) + right_margin, this->height(), picture.title) {}
 
     std::string paint() && {
-        svg_.text({left_margin, 28}, picture_.title, {.size = 15, .bold = true});
+        svg_.text({left_margin, 28}, title_, title_height, title_label);
         svg_.begin_clip({plan_.x.first, plan_.y.first}, plan_.x.last - plan_.x.first, plan_.y.last - plan_.y.first);
         backdrop_.paint_below(svg_, plan_);
         paint_trajectory();
@@ -77,10 +75,11 @@ public:
     }
 
 private:
-    static PlanView plan_of(float width, float height) {
+    static constexpr Label title_label{.size = 15, .bold = true};
+
+    static PlanView plan_of(float width, float height, double top) {
         double const wide = plan_width(width, height), scale = wide / width;
-        return {
-            scale, {0, width, left_margin, left_margin + wide}, {0, height, top_margin, top_margin + scale * height}};
+        return {scale, {0, width, left_margin, left_margin + wide}, {0, height, top, top + scale * height}};
     }
     double strip_top() const { return plan_bottom_ + axis_room + legend_height; }
     double height() const {
@@ -213,6 +212,7 @@ private:
 
     Backdrop const& backdrop_;
     TrajectoryPicture const& picture_;
+    std::vector<std::string> title_;   ///< its lines
     PlanView plan_;
     double plan_bottom_;   ///< [pixels]
     SvgDocument svg_;
@@ -251,8 +251,9 @@ private:
 }   // namespace
 
 void Legend::entry(std::string_view words) {
-    svg.text({x, y + 4}, words, {.size = 11});
-    x += 6.3 * static_cast<double>(words.size()) + 30;
+    constexpr Label label{.size = 11};
+    svg.text({x, y + 4}, words, label);
+    x += text_width(words, label) + 30;
 }
 
 std::string draw_trajectory(float width, float height, Backdrop const& backdrop, TrajectoryPicture const& picture) {

@@ -10,7 +10,7 @@
     // As an image, so that a scene cannot run scripts.
     const scene = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" preserveAspectRatio="none">${svg}</svg>`;
     if (svg !== "") make("image", { x: 0, y: 0, width, height, preserveAspectRatio: "none", href: "data:image/svg+xml," + encodeURIComponent(scene) });
-    const found = replay.values.filter(value => value !== null), least = Math.min(...found), most = Math.max(...found);
+    const found = replay.values.filter(value => value !== null), least = Math.min(0, ...found), most = Math.max(0, ...found);
     const trail = make("g", { fill: "none", "stroke-width": 2.2 * unit, "stroke-linecap": "round" });
     const stretch = replay.window_length ?? 20;
     const trails = [];

@@ -102,11 +102,13 @@ bool has_unit_of_axis(CampaignPlan const& plan, Results const& results, std::str
     return results.unit_of(first_treatment(plan, name)).value_or(unit) == unit;
 }
 
+constexpr std::array<std::string_view, 5> dashes{"", "6 4", "2 2", "9 3 2 3", "9 2 2 2 2 2"};
+
 /// Tells the i-th treatment's line from those of the same color.
-std::string_view treatment_dashes(std::size_t i) {
-    static constexpr std::array<std::string_view, 5> patterns{"", "6 4", "2 2", "9 3 2 3", "9 2 2 2 2 2"};
-    return patterns[i / colors % patterns.size()];
-}
+std::string_view treatment_dashes(std::size_t i) { return dashes[i / colors % dashes.size()]; }
+
+/// Likewise; all source tasks have the same color.
+std::string_view source_dashes(std::size_t i) { return dashes[1 + i % (dashes.size() - 1)]; }
 
 /// One a treatment or pool that has runs: those of source tasks whose reward has the same unit, then those of the
 /// report's order.
@@ -128,7 +130,8 @@ std::vector<Curve> curves_of(CampaignPlan const& plan, Results const& results) {
         curve.label += fmt::format(" (n = {})", curve.rows.back()->runs);
         curves.push_back(std::move(curve));
     };
-    for (Treatment const& source : plan.sources) add(source.name, source.label, source_color, "6 4");
+    for (std::size_t i = 0; i < plan.sources.size(); ++i)
+        add(plan.sources[i].name, plan.sources[i].label, source_color, source_dashes(i));
     std::vector<std::string> const names = shown_names(plan);
     for (std::size_t i = 0; i < names.size(); ++i)
         add(names[i], plan.label(names[i]), treatment_color(i), treatment_dashes(i));
@@ -180,9 +183,6 @@ std::size_t stack(std::vector<Bracket>& brackets) {
     return levels;
 }
 
-/// About so many pixels are taken by a label; wide letters take a tenth more.
-double text_width(std::string_view label) { return 6.5 * static_cast<double>(label.size()); }
-
 void draw_box(SvgDocument& svg, Frame const& frame, double x, std::vector<double> const& rewards,
               std::string_view color) {
     constexpr double half = 26, whisker = 13;
@@ -214,6 +214,15 @@ std::string_view treatment_color(std::size_t i) {
     return okabe_ito[i % okabe_ito.size()];
 }
 
+std::size_t drawn_sources(CampaignPlan const& plan, Results const& results) {
+    return static_cast<std::size_t>(
+        std::count_if(plan.sources.begin(), plan.sources.end(), [&](Treatment const& source) {
+            return has_unit_of_axis(plan, results, source.name) &&
+                   std::any_of(results.curves.begin(), results.curves.end(),
+                               [&](CurveRow const& row) { return row.treatment == source.name; });
+        }));
+}
+
 std::vector<std::string> labels_of_other_units(CampaignPlan const& plan, Results const& results) {
     std::vector<std::string> labels;
     for (std::string const& name : shown_names(plan))
@@ -242,7 +251,7 @@ std::string draw_curves(CampaignPlan const& plan, Results const& results) {
     make_room_for_labels(frame, counts);
 
     double width = frame.right + 216;
-    for (Curve const& curve : curves) width = std::max(width, frame.right + 40 + 1.1 * text_width(curve.label));
+    for (Curve const& curve : curves) width = std::max(width, frame.right + 48 + text_width(curve.label));
     SvgDocument svg{width, frame.bottom + 56, fmt::format("Mean {} of the best-of-run by generation", words.number_of)};
     draw_reward_axis(svg, frame, counts, words.collected + " (mean of best-of-runs)");
     for (double const tick : whole_ticks(frame.x_most)) {

@@ -18,6 +18,9 @@ std::string draw_curves(CampaignPlan const&, Results const&);
 /// paper's mark over each pair of them with p < 1e-2. Those of labels_of_other_units are left out.
 std::string draw_boxplots(CampaignPlan const&, Results const&, std::vector<Comparison> const&);
 
+/// How many source tasks figure 3 shows: those that have runs, and a reward of the unit of its axis.
+std::size_t drawn_sources(CampaignPlan const&, Results const&);
+
 /// Labels of the treatments and pools that neither figure can show on its axis: their rewards have another unit than
 /// the results' first.
 std::vector<std::string> labels_of_other_units(CampaignPlan const&, Results const&);

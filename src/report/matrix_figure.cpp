@@ -32,9 +32,9 @@ std::string color_of(double a12) {
                        mixed(equal.blue, end.blue));
 }
 
-double width_of(std::string_view text, double size) { return 0.58 * size * static_cast<double>(text.size()); }
-
-constexpr double field_height = 78, bar_width = 240;
+constexpr double field_height = 78, bar_width = 240, widest_label = 200, line_height = 15;
+constexpr Label column_label{.anchor = Anchor::middle, .bold = true}, row_label{.anchor = Anchor::end, .bold = true},
+    unit_label{.anchor = Anchor::middle, .size = 11, .color = soft};
 
 struct Grid {
     double left, top, field_width;
@@ -92,27 +92,35 @@ void draw_scale(SvgDocument& svg, SvgPoint corner) {
 
 std::string draw_matrix(CampaignPlan const& plan, std::vector<MatrixField> const& fields) {
     double label_width = 80, field_width = 172;
-    for (Treatment const& source : plan.sources) label_width = std::max(label_width, width_of(source.label, 12));
-    for (Treatment const& task : plan.tasks) {
-        field_width = std::max(field_width, width_of(task.label, 12) + 16);
-        field_width = std::max(field_width, width_of(head_of(fields, task.name), 11) + 16);
+    std::vector<std::vector<std::string>> rows, columns;   // lines of their labels
+    for (Treatment const& source : plan.sources) {
+        rows.push_back(broken_into_lines(source.label, widest_label, row_label));
+        for (std::string const& words : rows.back()) label_width = std::max(label_width, text_width(words, row_label));
     }
-    Grid const grid{44 + label_width, 66, field_width};
+    for (Treatment const& task : plan.tasks)
+        field_width = std::max(field_width, text_width(head_of(fields, task.name), unit_label) + 16);
+    std::size_t most_lines = 1;
+    for (Treatment const& task : plan.tasks) {
+        columns.push_back(broken_into_lines(task.label, field_width - 16, column_label));
+        most_lines = std::max(most_lines, columns.back().size());
+    }
+    auto const height_of = [](std::size_t lines) { return line_height * (static_cast<double>(lines) - 1); };
+    Grid const grid{44 + label_width, 66 + height_of(most_lines), field_width};
     SvgPoint const end = grid.corner(plan.sources.size(), plan.tasks.size());
     SvgDocument svg{std::max(end.x + 20, grid.left + bar_width + 40), end.y + 66,
                     "What knowledge of one task gives on another, over none"};
     svg.text({(grid.left + end.x) / 2, 20}, "runs on this task", {.anchor = Anchor::middle, .color = soft});
     svg.text({18, (grid.top + end.y) / 2}, "knowledge of this task",
              {.anchor = Anchor::middle, .color = soft, .rotation = -90});
-    for (std::size_t column = 0; column < plan.tasks.size(); ++column) {
+    for (std::size_t column = 0; column < columns.size(); ++column) {
         double const middle = grid.corner(0, column).x + grid.field_width / 2;
-        svg.text({middle, 41}, plan.tasks[column].label, {.anchor = Anchor::middle, .bold = true});
-        svg.text({middle, 57}, head_of(fields, plan.tasks[column].name),
-                 {.anchor = Anchor::middle, .size = 11, .color = soft});
+        svg.text({middle, grid.top - 25 - height_of(columns[column].size())}, columns[column], line_height,
+                 column_label);
+        svg.text({middle, grid.top - 9}, head_of(fields, plan.tasks[column].name), unit_label);
     }
-    for (std::size_t row = 0; row < plan.sources.size(); ++row)
-        svg.text({grid.left - 8, grid.corner(row, 0).y + field_height / 2 + 4}, plan.sources[row].label,
-                 {.anchor = Anchor::end, .bold = true});
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        svg.text({grid.left - 8, grid.corner(row, 0).y + field_height / 2 + 4 - height_of(rows[row].size()) / 2},
+                 rows[row], line_height, row_label);
     for (std::size_t i = 0; i < fields.size(); ++i)
         draw_field(svg, grid, grid.corner(i / plan.tasks.size(), i % plan.tasks.size()), fields[i]);
     draw_scale(svg, {grid.left, end.y + 30});

@@ -12,7 +12,6 @@
 #include <lore/experiment/version.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <set>
 
 #include <fmt/format.h>
@@ -44,23 +43,20 @@ std::string commands(CampaignPlan plan, Results const& results) {
     return text;
 }
 
-/// How a figure stands in the page.
-enum class Embedding : std::uint8_t {
-    part,   ///< of the page: its text can be marked
-    image   ///< of what others give, such as a world's scene: an image runs no scripts
-};
-
-/// "" if this report does not have the figure. `block`: of the caption.
+/// "" if this report does not have the figure. `block`: of the caption. It is part of the page, where its text can be
+/// marked, unless words are given that are said for it: then it is an image, which runs no scripts of what others give,
+/// such as a world's scene.
 std::string figure(Figures const& figures, std::string const& name, std::string_view block, Places const& of_caption,
-                   Embedding embedding = Embedding::part) {
+                   std::string const& said_for_image = "") {
     auto const found = figures.find(name);
     if (found == figures.end()) return "";
     std::string caption = filled(block, of_caption);
     caption.pop_back();   // its line's end
     // In a page a document's own heading has no place, and ids must not repeat.
     std::string const svg =
-        embedding == Embedding::image
-            ? fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml,{}\">\n", name, percent_encoded(found->second))
+        !said_for_image.empty()
+            ? fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml,{}\">\n", escaped(said_for_image),
+                          percent_encoded(found->second))
             : with_own_ids(found->second.substr(found->second.find("<svg")), fmt::format("{}-", name));
     return filled("figure", {{"name", name}, {"svg", svg}, {"caption", caption}});
 }
@@ -86,6 +82,14 @@ CampaignPlan with_all_shown(CampaignPlan plan) {
 /// After a sentence.
 std::string after_space(std::string const& sentence) { return sentence.empty() ? "" : ' ' + sentence; }
 
+/// What the caption of figure 3 says of source tasks; "" if the figure shows none.
+std::string sources_in_figure(TaskPart const& part, RewardWords const& words) {
+    std::size_t const sources = drawn_sources(part.plan, part.results);
+    if (sources == 0) return "";
+    return fmt::format("The gray dashed {}, {}.", sources == 1 ? "line is the source task" : "lines are source tasks",
+                       words.source);
+}
+
 /// Figures 3 and 4, of each target task.
 std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
     std::string text;
@@ -93,7 +97,7 @@ std::string curves(std::vector<TaskPart> const& parts, Figures const& figures) {
         RewardWords const words = reward_words(part.results.reward_unit(part.plan));
         Places const places{{"number_of", escaped(capital(words.number_of))},
                             {"collected", escaped(capital(words.collected))},
-                            {"source", words.source},
+                            {"sources", after_space(sources_in_figure(part, words))},
                             {"left_out", after_space(left_out(part.plan, part.results))},
                             {"task", escaped(part.label)}};
         std::string_view const of_task = part.task.empty() ? "" : "_task";
@@ -229,35 +233,35 @@ std::string report_page(CampaignPlan const& plan, Results const& results, Findin
     std::string const trajectory = results.replays.empty() ? "" : escaped(results.replays.front().run);
     BuildInformation const build = build_information();
     bool const worlds = shows_worlds(results);
-    Embedding const embedding = worlds ? Embedding::image : Embedding::part;
+    auto const panels = [&](std::string const& name, Places const& of_caption) {
+        return figure(figures, name, name, of_caption,
+                      worlds && figures.contains(name) ? panels_title(plan, results, name) : "");
+    };
     // A new part is a function here, a place in page.html.in, and a block there for what stands around it.
-    return filled(
-        "page", {{"title", escaped(plan.title)},
-                 {"css", style(plan, results)},
-                 {"js", std::string{report_js} + std::string{worlds ? world_replay_js : arena_replay_js}},
-                 {"finished", std::to_string(results.runs.size())},
-                 {"planned", std::to_string(runs)},
-                 {"generation", std::to_string(results.last_generation())},
-                 {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
-                 {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
-                 {"matrix", matrix(plan, findings.matrix, figures)},
-                 {"collected", escaped(capital(words.collected))},
-                 {"treatments", treatments_table(plan, results)},
-                 {"curves", curves(findings.parts, figures)},
-                 {"speed", speeds(plan, results, findings.parts)},
-                 {"pools", pools(plan, results, findings.planned)},
-                 {"significance", significance(plan, results, findings.comparisons)},
-                 {"bases", bases(plan, results)},
-                 {"figure5", figure(figures, "figure5", "figure5",
-                                    {{"run", trajectory}, {"not_found", worlds ? "" : " (-1: not found)"}}, embedding)},
-                 {"figure6", figure(figures, "figure6", "figure6",
-                                    {{"not_found", worlds ? "" : " (0: not found in one of them)"}}, embedding)},
-                 {"replay", replay_section(plan, results)},
-                 {"population", populations(plan, results)},
-                 {"runs", runs_table(plan, results)},
-                 {"versions", escaped(versions(results))},
-                 {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
-                 {"commands", escaped(commands(plan, results))}});
+    return filled("page", {{"title", escaped(plan.title)},
+                           {"css", style(plan, results)},
+                           {"js", std::string{report_js} + std::string{worlds ? world_replay_js : arena_replay_js}},
+                           {"finished", std::to_string(results.runs.size())},
+                           {"planned", std::to_string(runs)},
+                           {"generation", std::to_string(results.last_generation())},
+                           {"incomplete", results.runs.size() < runs ? filled("incomplete", {}) : ""},
+                           {"missing", missing.empty() ? "" : filled("missing", {{"what", escaped(missing)}})},
+                           {"matrix", matrix(plan, findings.matrix, figures)},
+                           {"collected", escaped(capital(words.collected))},
+                           {"treatments", treatments_table(plan, results)},
+                           {"curves", curves(findings.parts, figures)},
+                           {"speed", speeds(plan, results, findings.parts)},
+                           {"pools", pools(plan, results, findings.planned)},
+                           {"significance", significance(plan, results, findings.comparisons)},
+                           {"bases", bases(plan, results)},
+                           {"figure5", panels("figure5", {{"run", trajectory}})},
+                           {"figure6", panels("figure6", {})},
+                           {"replay", replay_section(plan, results)},
+                           {"population", populations(plan, results)},
+                           {"runs", runs_table(plan, results)},
+                           {"versions", escaped(versions(results))},
+                           {"build", escaped(fmt::format("{} ({}), {}", build.version, build.commit, build.compiler))},
+                           {"commands", escaped(commands(plan, results))}});
 }
 
 }   // namespace lore

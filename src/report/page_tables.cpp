@@ -1,5 +1,6 @@
 #include "html.h"
 #include "page_parts.h"
+#include "panels.h"
 
 #include <lore/statistics/quantiles.h>
 
@@ -35,7 +36,7 @@ void add_statistics(std::vector<HtmlColumn<Row>>& columns, Results const& result
     columns.push_back(
         {"mean", [=](Row const& r) { return if_any(r.rewards, [&](auto const& all) { return shown(mean(all)); }); }});
     columns.push_back({"sd", [=](Row const& r) {
-                           return if_any(r.rewards, [&](auto const& all) { return shown(standard_deviation(all)); });
+                           return r.rewards.size() < 2 ? HtmlCell{""} : HtmlCell{shown(standard_deviation(r.rewards))};
                        }});
     std::vector<std::pair<std::string, double>> const quantiles{
         {"least", 0.0}, {"Q1", 0.25}, {"median", 0.5}, {"Q3", 0.75}, {"most", 1.0}};
@@ -250,13 +251,8 @@ std::string leads_table(CampaignPlan const& plan, Results const& results) {
 std::string bases_table(CampaignPlan const& plan, Results const& results) {
     using Row = KnowledgeRow;
     auto const shown = mean_text(results);
-    auto const label = [&](Row const& base) {
-        auto const planned = std::find_if(plan.knowledge.begin(), plan.knowledge.end(),
-                                          [&](KnowledgePlan const& k) { return k.name == base.knowledge; });
-        return planned == plan.knowledge.end() ? base.knowledge : planned->label;
-    };
     std::vector<HtmlColumn<Row>> const columns{
-        {"knowledge base", label, true},
+        {"knowledge base", [&](Row const& b) { return knowledge_label(plan, b.knowledge); }, true},
         {"made from", [](Row const& b) { return b.kind; }, true},
         {"run", [](Row const& b) { return std::to_string(b.source_run); }},
         {"seed", [](Row const& b) { return std::to_string(b.seed); }},

@@ -1,9 +1,12 @@
 #include "panels.h"
 
+#include "html.h"
+
 #include <lore/arena_view/trajectory.h>
 #include <lore/figure/trajectory.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -23,27 +26,34 @@ double size_of(std::string const& svg, std::string_view which) {
     return value;
 }
 
-/// From the lowest to the highest value found; in an arena, whose rewards are balls, with 0.
+/// From the lowest to the highest value found, with 0.
 void scale_panel(TrajectoryPicture& picture, bool arena, bool product) {
     std::vector<double> found = picture.values;
     std::erase_if(found, [](double value) { return std::isnan(value); });
-    if (arena) found.push_back(0);
-    if (!found.empty()) {
-        auto const [least, most] = std::minmax_element(found.begin(), found.end());
-        picture.lowest = *least;
-        picture.highest = *most;
-    }
-    if (arena && picture.highest == picture.lowest) picture.highest = 1;   // a scale all the same
+    found.push_back(0);
+    auto const [least, most] = std::minmax_element(found.begin(), found.end());
+    picture.lowest = *least;
+    picture.highest = *most;
     // In an arena a window that is not found is worth -1, and makes a product 0; that is a place in the strip as long
     // as no value is negative.
     bool const has_place = arena && picture.lowest == 0;
     picture.not_found = !has_place ? std::numeric_limits<double>::quiet_NaN() : product ? 0 : -1;
 }
 
+/// "way" and 3 as "way" with a raised 3.
+std::string power_of(std::string const& unit, std::ptrdiff_t exponent) {
+    static constexpr std::array<std::string_view, 10> raised{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                                             "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    std::string text = unit;
+    for (char const digit : std::to_string(exponent)) text += raised[static_cast<std::size_t>(digit - '0')];
+    return text;
+}
+
 /// Panel number `place` of the figure, without the trajectory itself.
 TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel, std::size_t place,
                              Replay const& replay, bool arena) {
-    bool const product = panel.knowledge.find('*') != std::string::npos;
+    auto const factors = 1 + std::count(panel.knowledge.begin(), panel.knowledge.end(), '*');
+    bool const product = factors > 1;
     std::string const before =
         panel.figure == "figure5" ? fmt::format("({:c}) values from ", static_cast<char>('a' + static_cast<int>(place)))
                                   : "product of the values from ";
@@ -51,13 +61,14 @@ TrajectoryPicture picture_of(CampaignPlan const& plan, PanelValues const& panel,
     picture.title = before + knowledge_label(plan, panel.knowledge);
     picture.values = panel.values;
     scale_panel(picture, arena, product);
-    picture.value_label = product ? "product of the values" : fmt::format("value ({})", replay.reward_unit);
+    picture.value_label = product ? fmt::format("product of the values ({})", power_of(replay.reward_unit, factors))
+                                  : fmt::format("value ({})", replay.reward_unit);
     picture.window_length = panel.window_length;
     return picture;
 }
 
 /// One document with the panels below each other.
-std::string stacked(std::vector<std::string> const& panels) {
+std::string stacked(std::vector<std::string> const& panels, std::string_view title) {
     double width = 0, height = 0;
     std::string body;
     for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -68,9 +79,9 @@ std::string stacked(std::vector<std::string> const& panels) {
         body += fmt::format("<svg x=\"0\" y=\"{}\"{}", height, panel.substr(start));
         height += size_of(panel, "height");
     }
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n{2}</svg>\n",
-        width, height, body);
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+                       "role=\"img\">\n<title>{2}</title>\n{3}</svg>\n",
+                       width, height, escaped(title), body);
 }
 
 }   // namespace
@@ -86,6 +97,14 @@ std::string knowledge_label(CampaignPlan const& plan, std::string_view names) {
         label += planned == plan.knowledge.end() ? std::string{name} : planned->label;
     }
     return label;
+}
+
+std::string panels_title(CampaignPlan const& plan, Results const& results, std::string_view figure) {
+    std::string bases;
+    for (PanelValues const& panel : results.panels)
+        if (panel.figure == figure) bases += (bases.empty() ? "" : ", ") + knowledge_label(plan, panel.knowledge);
+    return fmt::format("Path of the best-of-run of {}, colored by the {} {}", results.replays.front().run,
+                       figure == "figure5" ? "values of" : "product of the values of", bases);
 }
 
 std::string draw_panels(CampaignPlan const& plan, Results const& results, std::string_view figure) {
@@ -111,7 +130,7 @@ std::string draw_panels(CampaignPlan const& plan, Results const& results, std::s
                                : draw_trajectory(replay.scene, picture));
     }
     if (panels.size() < 2) return panels.empty() ? "" : panels.front();
-    return stacked(panels);
+    return stacked(panels, panels_title(plan, results, figure));
 }
 
 std::string with_own_ids(std::string svg, std::string_view prefix) {

@@ -10,11 +10,13 @@
 #include <lore/core/directory.h>
 #include <lore/core/error.h>
 #include <lore/core/file.h>
+#include <lore/core/input_file.h>
 #include <lore/figure/svg.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -102,23 +104,25 @@ Figures draw_figures(CampaignPlan const& plan, Results const& results, Findings 
     return figures;
 }
 
-/// Whether a report of this campaign can have a figure of that name.
-bool is_figure(CampaignPlan const& plan, std::string_view name) {
-    std::vector<std::string> names{"matrix", "figure3", "figure4", "figure5", "figure6"};
-    for (Treatment const& task : plan.tasks)
-        for (std::string_view const figure : {"figure3", "figure4"})
-            names.push_back(fmt::format("{}_{}", figure, task.name));
-    return std::find(names.begin(), names.end(), name) != names.end();
+/// Names of the figures that the report in a directory can have.
+std::set<std::string> figures_of_report(CampaignDirectory const& directory) {
+    std::set<std::string> names{"matrix", "figure3", "figure4", "figure5", "figure6"};
+    std::string const summary = directory.file("summary.json");
+    if (!std::filesystem::exists(summary)) return names;
+    for (std::string const& task : tasks_in_summary(read_text(summary)))
+        for (std::string_view const figure : {"figure3", "figure4"}) names.insert(fmt::format("{}_{}", figure, task));
+    return names;
 }
 
-void write_figures(CampaignPlan const& plan, CampaignDirectory const& into, Figures const& figures,
+/// `former`: names of the figures of a report that was there before.
+void write_figures(std::set<std::string> const& former, CampaignDirectory const& into, Figures const& figures,
                    std::map<std::string, std::string> const& pngs) {
-    // Figures of a former report that this one does not have would pass for its own.
+    // Those that this report does not have would pass for its own.
     for (DirectoryEntry const& entry : entries_in(into.file("figures"))) {
         std::filesystem::path const path{entry.path};
         std::string const name = path.stem().string();
         bool const is_picture = path.extension() == ".svg" || path.extension() == ".png";
-        if (is_picture && is_figure(plan, name) && !figures.contains(name)) remove_file(entry.path);
+        if (is_picture && former.contains(name) && !figures.contains(name)) remove_file(entry.path);
     }
     for (auto const& [name, svg] : figures) {
         write_text(into, fmt::format("figures/{}.svg", name), svg);
@@ -148,7 +152,11 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
                          "Start with 'lore-campaign run', or check --dir.");
     make_directory(into.file("figures"));
     if (has_runs) make_tables(given, from, into);
-    Results const results = read_results(has_runs ? into : from);
+    Results results = read_results(has_runs ? into : from);
+    if (given.figures.trajectory.empty()) {   // else it would show what the campaign no longer asks for
+        results.replays.clear();
+        results.panels.clear();
+    }
     CampaignPlan const plan = has_runs ? given : without_misfits(given, results);
     if (!has_runs) check_results(plan, results);
     Findings const findings = findings_of(plan, results);
@@ -156,13 +164,14 @@ std::string write_report(CampaignPlan const& given, CampaignDirectory const& fro
     Figures const figures = draw_figures(plan, results, findings);
     std::map<std::string, std::string> pngs;
     for (auto const& [name, svg] : figures) pngs[name] = render_png(svg);
+    std::set<std::string> const former = figures_of_report(into);
     std::string const summary = summary_json(plan, results, findings),
                       page = report_page(plan, results, findings, figures);
     write_text(into, "pvalues.csv", comparisons_csv(findings.comparisons));
     write_pools(plan, into, findings.planned);
     write_matrix(into, findings.matrix);
     write_text(into, "summary.json", summary);
-    write_figures(plan, into, figures, pngs);
+    write_figures(former, into, figures, pngs);
     write_text(into, "report.html", page);
     return what_is_missing(plan, results);
 }

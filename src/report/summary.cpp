@@ -1,5 +1,7 @@
 #include "summary.h"
 
+#include "panels.h"
+
 #include <lore/core/whole_number.h>
 #include <lore/statistics/quantiles.h>
 
@@ -33,7 +35,7 @@ Json json_of(std::vector<Comparison> const& comparisons) {
 /// Precondition: there are some.
 void describe_rewards(std::vector<double> const& rewards, Json& entry) {
     entry["mean"] = mean(rewards);
-    entry["standard_deviation"] = standard_deviation(rewards);
+    entry["standard_deviation"] = rewards.size() > 1 ? Json(standard_deviation(rewards)) : Json();
     entry["least"] = quantile(rewards, 0);
     entry["lower_quartile"] = quantile(rewards, 0.25);
     entry["median"] = quantile(rewards, 0.5);
@@ -121,19 +123,22 @@ Json json_of(Treatment const& treatment, CampaignPlan const& plan, Results const
     return entry;
 }
 
-Json json_of(KnowledgeRow const& base, std::string const& word) {
-    return {{"knowledge", base.knowledge},
-            {"kind", base.kind},
-            {"source_run", base.source_run},
-            {"seed", base.seed},
-            {word, json_number<Json>(base.reward)},
-            {"individuals", base.individuals},
-            {"windows", base.windows},
-            {"features", base.features},
-            {"least_value", base.least_value},
-            {"greatest_value", base.greatest_value},
-            {"at_greatest", base.at_greatest},
-            {"shown_once", base.shown_once}};
+Json json_of(KnowledgeRow const& base, CampaignPlan const& plan, std::string const& word) {
+    Json entry{{"knowledge", base.knowledge}};
+    if (std::string const label = knowledge_label(plan, base.knowledge); label != base.knowledge)
+        entry["label"] = label;
+    entry.update({{"kind", base.kind},
+                  {"source_run", base.source_run},
+                  {"seed", base.seed},
+                  {word, json_number<Json>(base.reward)},
+                  {"individuals", base.individuals},
+                  {"windows", base.windows},
+                  {"features", base.features},
+                  {"least_value", base.least_value},
+                  {"greatest_value", base.greatest_value},
+                  {"at_greatest", base.at_greatest},
+                  {"shown_once", base.shown_once}});
+    return entry;
 }
 
 /// A summary of results without leads does not have them.
@@ -168,11 +173,21 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, Findi
     document["complete"] = complete;
     document["comparisons"] = json_of(findings.comparisons);
     document["knowledge"] = Json::array();
-    for (KnowledgeRow const& base : results.bases) document["knowledge"].push_back(json_of(base, word));
+    for (KnowledgeRow const& base : results.bases) document["knowledge"].push_back(json_of(base, plan, word));
     add_pools(plan, results, findings.planned, document);
     add_matrix(findings.matrix, document);
     add_leads(results.leads, document);
     return document.dump(2) + "\n";
+}
+
+std::vector<std::string> tasks_in_summary(std::string_view text) {
+    std::vector<std::string> tasks;
+    Json const document = Json::parse(text, nullptr, false);
+    if (!document.is_object() || !document.contains("treatments")) return tasks;
+    for (Json const& entry : document["treatments"])
+        if (entry.is_object() && entry.contains("target") && entry["target"].is_string())
+            tasks.push_back(entry["target"]);
+    return tasks;
 }
 
 }   // namespace lore

@@ -51,7 +51,10 @@ Json treatment_json(TreatmentFacts const& facts) {
               {"curve", curve}};
     if (!is_first(facts.reward_unit)) json["reward_unit"] = facts.reward_unit;
     if (facts.is_source) json["source"] = true;
-    if (!facts.target.empty()) json["target"] = facts.target;
+    if (!facts.target.empty()) {
+        json["target"] = facts.target;
+        json["target_label"] = facts.target_label;
+    }
     return json;
 }
 

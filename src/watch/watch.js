@@ -6,7 +6,7 @@ const svgNamespace = "http://www.w3.org/2000/svg";
 
 // element("td", { class: "number" }, "3") and so on; children are elements or text.
 function element(name, attributes = {}, ...children) {
-  const made = ["svg", "line", "polyline", "text"].includes(name)
+  const made = ["svg", "line", "polyline", "text", "title"].includes(name)
     ? document.createElementNS(svgNamespace, name) : document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   made.append(...children);
@@ -26,8 +26,21 @@ function duration(seconds) {
 // As the page calls a state of 'lore-campaign status'.
 const called = state => state === "missing" ? "not started" : state;
 
-const color = index => index === 0 ? "var(--source)" : `var(--c${(index - 1) % 8})`;
-const dashes = index => index > 8 ? "7 3" : "none";   // the second round of colors
+// Colors and dashes are those of the report: by the place among the treatments of one target task; of sources, which
+// have one color, among these.
+const colors = 7, patterns = ["none", "6 4", "2 2", "9 3 2 3", "9 2 2 2 2 2"];
+function placed(treatments) {
+  const places = new Map();
+  return treatments.map(treatment => {
+    const group = `${treatment.source} ${treatment.target}`, place = places.get(group) ?? 0;
+    places.set(group, place + 1);
+    return { ...treatment, place };
+  });
+}
+const color = treatment => treatment.source ? "var(--source)" : `var(--c${treatment.place % colors})`;
+const dashes = treatment =>
+  patterns[treatment.source ? 1 + treatment.place % (patterns.length - 1) : Math.floor(treatment.place / colors) % patterns.length];
+const stroke = treatment => `stroke: ${color(treatment)}; stroke-dasharray: ${dashes(treatment)}`;
 
 // Rewards have the name of their unit where something is counted, and else a unit beside them.
 const unitOf = facts => facts.reward_unit ?? "balls";
@@ -80,9 +93,9 @@ function showFailures(facts) {
 
 function showTreatments(facts) {
   byId("treatments").hidden = facts.treatments.length === 0;
-  byId("treatments").querySelector("tbody").replaceChildren(...facts.treatments.map((treatment, index) => {
+  byId("treatments").querySelector("tbody").replaceChildren(...placed(facts.treatments).map(treatment => {
     const swatch = element("svg", { class: "swatch", viewBox: "0 0 32 10", "aria-hidden": "true" }, element("line",
-      { x1: 0, y1: 5, x2: 32, y2: 5, style: `stroke: ${color(index)}; stroke-width: 5; stroke-dasharray: ${dashes(index)}` }));
+      { x1: 0, y1: 5, x2: 32, y2: 5, style: `${stroke(treatment)}; stroke-width: 5` }));
     const number = (value, more = "") => element("td", { class: `number ${more}` }, value);
     const began = treatment.started > 0;
     return element("tr", {}, element("th", { scope: "row" }, swatch, treatment.label),
@@ -100,7 +113,7 @@ function tickStep(most) {
 function drawChart(treatments) {
   const width = Math.max(280, byId("chart").clientWidth), height = Math.min(420, Math.max(240, width * .55));
   const withLabels = width > 560;
-  const left = 46, right = withLabels ? 150 : 14, top = 12, bottom = 42;
+  const left = 46, right = withLabels ? Math.max(170, width * .25) : 14, top = 12, bottom = 42;
   const mostX = Math.max(1, ...treatments.map(treatment => treatment.curve.at(-1)[0]));
   const unit = unitOf(treatments.at(-1)), means = treatments.flatMap(treatment => treatment.curve.map(point => point[1]));
   const counted = unit === "balls", span = Math.max(...means) - Math.min(...means) || 1;
@@ -131,42 +144,51 @@ function drawChart(treatments) {
     const rest = treatment.curve.slice(Math.max(0, whole.length - 1));
     for (const [points, kind] of [[whole, "whole"], [rest, "early"]])
       if (points.length > 1) chart.append(element("polyline", { class: kind,
-        style: `stroke: ${color(treatment.index)}; stroke-dasharray: ${dashes(treatment.index)}`,
+        style: stroke(treatment),
         points: points.map(point => `${x(point[0]).toFixed(1)},${y(point[1]).toFixed(1)}`).join(" ") }));
   }
   if (withLabels) labelCurves(chart, treatments, x, y, top);
   return chart;
 }
 
-// A chart a target task, under its name where there are several; sources share one if they share the unit.
+// A chart a target task, under its label where there are several; sources share one if they share the unit.
 function drawCharts(treatments) {
-  const title = treatment => treatment.target ?? `source tasks [${unitOf(treatment)}]`;
   const named = treatments.some(treatment => treatment.target !== undefined);
-  const group = treatment => named ? title(treatment) : unitOf(treatment);
+  const group = treatment => !named ? unitOf(treatment) : treatment.target ?? `source tasks [${unitOf(treatment)}]`;
   byId("chart").replaceChildren(...[...new Set(treatments.map(group))].flatMap(name => {
-    const chart = drawChart(treatments.filter(treatment => group(treatment) === name));
-    return named ? [element("h3", {}, name), chart] : [chart];
+    const shown = treatments.filter(treatment => group(treatment) === name), chart = drawChart(shown);
+    return named ? [element("h3", {}, shown[0].target_label ?? name), chart] : [chart];
   }));
+  byId("chart").querySelectorAll("text.name").forEach(shorten);
 }
 
-// Each curve's name at its end, moved apart where ends are near.
+// A label as far as it fits into the picture; its tool tip has all of it.
+function shorten(label) {
+  const room = label.ownerSVGElement.viewBox.baseVal.width - Number(label.getAttribute("x"));
+  const text = label.lastChild, letters = [...text.data];
+  while (label.getComputedTextLength() > room && letters.length > 0) {
+    letters.pop();
+    text.data = letters.join("") + "\u2026";
+  }
+}
+
+// Each curve's label at its end, moved apart where ends are near.
 function labelCurves(chart, treatments, x, y, top) {
   const labels = treatments.map(treatment => ({ treatment, x: x(treatment.curve.at(-1)[0]) + 6, y: y(treatment.curve.at(-1)[1]) + 4 }));
   labels.sort((a, b) => b.y - a.y);
   labels.forEach((label, i) => { if (i > 0) label.y = Math.max(top, Math.min(label.y, labels[i - 1].y - 14)); });
-  // "hard maze: " of every treatment on the hard maze stands above the chart already.
-  const before = labels[0].treatment.label.split(": ", 1)[0] + ": ";
-  const shared = labels[0].treatment.target !== undefined && labels.every(({ treatment }) => treatment.label.startsWith(before));
   for (const { treatment, x, y } of labels) {
-    const label = shared ? treatment.label.slice(before.length) : treatment.label;
-    const text = label.length > 20 ? label.slice(0, 19) + "\u2026" : label;
-    chart.append(element("text", { x, y, style: `fill: ${color(treatment.index)}` }, text));
+    // "hard maze: " of a treatment on the hard maze stands above the chart already.
+    const { label } = treatment, before = `${treatment.target_label}: `;
+    chart.append(element("line", { class: "key", x1: x, x2: x + 18, y1: y - 4, y2: y - 4, style: stroke(treatment) }));
+    chart.append(element("text", { class: "name", x: x + 22, y }, element("title", {}, label),
+      label.startsWith(before) ? label.slice(before.length) : label));
   }
 }
 
 let drawn = [], sourceWasChosen = false;
 function showCurves(facts) {
-  const curves = facts.treatments.map((treatment, index) => ({ ...treatment, index })).filter(treatment => treatment.curve.length > 0);
+  const curves = placed(facts.treatments).filter(treatment => treatment.curve.length > 0);
   const targets = curves.filter(treatment => !treatment.source);
   if (!sourceWasChosen) byId("with-source").checked = targets.length === 0;
   // Rewards of different units share no axis.

@@ -21,16 +21,19 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_failures = 50;   ///< shown with their logs
 
-TreatmentFacts treatment_facts(Treatment const& treatment, CampaignDirectory const& directory,
+TreatmentFacts treatment_facts(CampaignPlan const& plan, std::string const& name, CampaignDirectory const& directory,
                                std::vector<StepWithState> const& steps, ProgressMemory& progress) {
+    Treatment const& treatment = plan.treatment(name);
     TreatmentFacts facts;
-    facts.name = treatment.name;
+    facts.name = name;
     facts.label = treatment.label;
+    facts.is_source = plan.is_source(name);
     facts.target = treatment.target;
+    if (!treatment.target.empty()) facts.target_label = plan.task(treatment.target).label;
     facts.planned = treatment.runs;
     std::vector<std::vector<double>> runs;
     for (auto const& [step, state] : steps) {
-        if (step.kind != StepKind::evolve || step.subject != treatment.name) continue;
+        if (step.kind != StepKind::evolve || step.subject != name) continue;
         facts.done += state.status == StepStatus::done;
         facts.running += state.status == StepStatus::running;
         facts.failed += state.status == StepStatus::failed;
@@ -141,10 +144,8 @@ struct CampaignWatcher::Memory {
         if (!fs::is_directory(directory.path()))
             now.notice = fmt::format("Waiting for {}: 'lore-campaign run' makes it.", directory.path());
         now.steps = states_of(plan, directory);
-        for (std::string const& name : all_treatments(plan)) {
-            now.treatments.push_back(treatment_facts(plan.treatment(name), directory, now.steps, progress));
-            now.treatments.back().is_source = plan.is_source(name);
-        }
+        for (std::string const& name : all_treatments(plan))
+            now.treatments.push_back(treatment_facts(plan, name, directory, now.steps, progress));
         now.failures = failures_among(now.steps, directory);
         add_progress(now);
         std::vector<Seen> champions;

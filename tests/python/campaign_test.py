@@ -156,7 +156,8 @@ class SeveralTasks(LoreTest):
                              "world": {"width": 2, "height": 1, "svg": "<rect width='1' height='1' fill='#ff0000'/>"}}],
                 "panels": [{"figure": "figure5", "knowledge": "pole", "checksum": "0"}],
             }),
-            "summary.json": json.dumps({"sources": ["arena", "pole"], "treatments": treatments}),
+            "summary.json": json.dumps({"sources": ["arena", "pole"], "treatments": treatments,
+                                        "knowledge": [{"knowledge": "pole", "label": "the pole's lineage"}]}),
         }  # fmt: skip
         for name, text in files.items():
             (self.report / name).write_text(text)
@@ -186,6 +187,26 @@ class SeveralTasks(LoreTest):
         self.assertEqual([line.get_label() for line in drawn.lines], ["arena_from_none (n = 1)"])
         boxes = plot.figure4(self.report).axes[0]
         self.assertEqual([tick.get_text() for tick in boxes.get_xticklabels()], ["arena_from_none\nn = 1"])
+
+    @unittest.skipIf(plot is None, "matplotlib is not here")
+    def test_give_a_treatment_one_color_whoever_has_runs(self) -> None:
+        for name in ("final.csv", "curves.csv"):
+            lines = (self.report / name).read_text().splitlines(keepends=True)
+            (self.report / name).write_text("".join(line for line in lines if not line.startswith("pole_from_none")))
+        (line,) = plot.figure3(self.report, "pole").axes[0].lines
+        points = plot.figure4(self.report, "pole").axes[0].lines[-1]
+        self.assertEqual([line.get_color(), points.get_color()], [plot.COLORS[1]] * 2)
+
+    @unittest.skipIf(plot is None, "matplotlib is not here")
+    def test_break_long_labels_and_leave_out_the_task_that_all_begin_with(self) -> None:
+        summary = (self.report / "summary.json").read_text()
+        for name, end in (("pole_from_none", "no knowledge"), ("pole_from_pole", "knowledge of the pole on the cart")):
+            summary = summary.replace(f'"label": "{name}"', f'"label": "The pole: {end}"')
+        (self.report / "summary.json").write_text(summary)
+        lines = [line.get_label() for line in plot.figure3(self.report, "pole").axes[0].lines]
+        self.assertEqual(lines, ["no knowledge (n = 1)", "knowledge of the pole on the\ncart (n = 1)"])
+        boxes = [tick.get_text() for tick in plot.figure4(self.report, "pole").axes[0].get_xticklabels()]
+        self.assertEqual(boxes, ["no knowledge\nn = 1", "knowledge of\nthe pole on the\ncart\nn = 1"])
 
     def test_have_replays_in_arenas_whatever_the_unit(self) -> None:
         (self.report / "replay.csv").write_text(
@@ -218,6 +239,9 @@ class SeveralTasks(LoreTest):
         self.assertEqual(pixels[10, 10].tolist()[:3], pixels[-10, 10].tolist()[:3])
         self.assertNotEqual(pixels[10, 10].tolist(), pixels[10, -10].tolist(), "the left half is red")
         self.assertEqual(panel.axes[1].get_ylabel(), "value (cos)")
+        self.assertEqual(panel.texts[0].get_text(), "(a) values from the pole's lineage")
+        legend = [text.get_text() for text in panel.axes[0].get_legend().get_texts()]
+        self.assertEqual(legend, ["start", "end", "not in the knowledge base"])
 
 
 @unittest.skipIf(plot is None, "matplotlib is not here")
@@ -294,6 +318,23 @@ class Figures(LoreTest):
             }
             for text in texts:
                 self.assertIn(text, shown, figure)
+
+    def test_have_an_axis_of_balls_where_nobody_has_any(self) -> None:
+        (self.scratch / "final.csv").write_text("treatment,run,seed,balls\nsource,1,1,0\nnone,1,1,0\n")
+        (self.scratch / "curves.csv").write_text("treatment,generation,runs,mean,low,high\nnone,0,1,0,0,0\nnone,9,1,0,0,0\n")
+        for draw in (plot.figure3, plot.figure4):
+            self.assertGreaterEqual(draw(self.scratch).axes[0].get_ylim()[1], 1)
+
+    def test_break_a_long_title(self) -> None:
+        summary = json.loads((PAPER / "summary.json").read_text())
+        for entry in summary["knowledge"]:
+            entry["label"] = "knowledge of a robot that " + "went on and " * 10 + "on"
+        copy = self.scratch / "long"
+        shutil.copytree(PAPER, copy)
+        (copy / "summary.json").write_text(json.dumps(summary))
+        lines = plot.figure5(copy).subfigs[0].texts[0].get_text().splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertLessEqual(max(map(len, lines)), 80)
 
     def test_equal_tables_make_equal_files(self) -> None:
         for place in ("once", "again"):

@@ -4,12 +4,19 @@
 #include <lore/campaign/plan.h>
 #include <lore/campaign/state.h>
 #include <lore/campaign/worlds.h>
+#include <lore/core/column.h>
 
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace lore::campaign_program {
 
 namespace {
+
+std::string waits_for(Step const& step) {
+    return step.after.empty() ? "-" : fmt::format("{}", fmt::join(step.after, ","));
+}
 
 void plan_options(CLI::App& app, Arguments& arguments) {
     add_campaign(app, arguments);
@@ -21,12 +28,15 @@ ExitCode print_plan(Arguments const& arguments) {
     check_worlds(campaign);
     CampaignDirectory const directory{arguments.directory};
     auto const choice = recorded_choices(campaign, directory);
-    fmt::print("# {}\n{:<24} {:<22} {}\n", campaign.title, "step", "waits for", "command");
-    for (Step const& step : steps_of(campaign)) {
+    std::vector<Step> const steps = steps_of(campaign);
+    std::size_t const names = column_width(24, steps, [](Step const& step) { return step.name; });
+    // A step that waits for many does not push the commands of the others out of sight.
+    std::size_t const waits = std::min<std::size_t>(40, column_width(22, steps, waits_for));
+    fmt::print("# {}\n{:<{}} {:<{}} {}\n", campaign.title, "step", names, "waits for", waits, "command");
+    for (Step const& step : steps) {
         auto const command =
             command_of(campaign, directory, arguments.runner.launcher, step, choice ? &*choice : nullptr);
-        fmt::print("{:<24} {:<22} {}\n", step.name,
-                   step.after.empty() ? "-" : fmt::format("{}", fmt::join(step.after, ",")),
+        fmt::print("{:<{}} {:<{}} {}\n", step.name, names, waits_for(step), waits,
                    command.empty() ? "(source runs for the knowledge bases)" : shell_text(command));
     }
     for (TransferPair const& pair : campaign.transfer)

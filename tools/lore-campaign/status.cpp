@@ -2,6 +2,7 @@
 
 #include <lore/campaign/plan.h>
 #include <lore/campaign/state.h>
+#include <lore/core/column.h>
 #include <lore/core/utf8.h>
 
 #include <fmt/ranges.h>
@@ -19,9 +20,12 @@ ExitCode show_status(Arguments const& arguments) {
     CampaignPlan const campaign = read_campaign(arguments.file);
     CampaignDirectory const directory{arguments.directory};
     std::map<StepStatus, int> counts;
-    for (auto const& [step, state] : states_of(campaign, directory)) {
+    std::vector<StepWithState> const steps = states_of(campaign, directory);
+    auto const width = column_width(24, steps, [](StepWithState const& one) { return one.step.name; });
+    for (auto const& [step, state] : steps) {
         ++counts[state.status];
-        if (!arguments.quiet) fmt::print("{:<24} {:<12} {}\n", step.name, name(state.status), harmless(state.reason));
+        if (!arguments.quiet)
+            fmt::print("{:<{}} {:<12} {}\n", step.name, width, name(state.status), harmless(state.reason));
     }
     std::vector<std::string> words;
     for (auto const& [status, count] : counts) words.push_back(fmt::format("{} {}", count, name(status)));

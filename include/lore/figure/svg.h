@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lore {
 
@@ -26,6 +27,12 @@ struct Label {
     double rotation = 0;   ///< clockwise about the anchor [degrees]
 };
 
+/// About how wide a text is drawn [pixels], by the letters of DejaVu Sans, the font of the documents.
+double text_width(std::string_view content, Label const& = {});
+
+/// The text in lines no wider than `most` [pixels], broken at spaces, and within words only where these are wider.
+std::vector<std::string> broken_into_lines(std::string_view content, double most, Label const& = {});
+
 struct SvgPoint {
     double x = 0, y = 0;
 };
@@ -45,6 +52,8 @@ public:
     void circle(SvgPoint center, double radius, Paint const&);
     void rect(SvgPoint corner, double width, double height, Paint const&);
     void text(SvgPoint at, std::string_view content, Label const& = {});
+    /// Lines `height` pixels below each other, the first at `at`.
+    void text(SvgPoint at, std::span<std::string const> lines, double height, Label const& = {});
     /// What is drawn until end_group is shown only within the rectangle.
     void begin_clip(SvgPoint corner, double width, double height);
     void end_group();

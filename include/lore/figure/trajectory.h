@@ -47,7 +47,7 @@ public:
     virtual void explain(Legend&) const {}
 };
 
-/// The backdrop, and on it the trajectory from white (low values) to blue (high ones) with a dark outline, thin and
+/// The backdrop, and on it the trajectory from pale (low values) to dark blue (high ones) with a dark outline, thin and
 /// gray where a window was not found; below it the value over time. As an SVG document. `width` and `height`: of the
 /// world [u].
 std::string draw_trajectory(float width, float height, Backdrop const&, TrajectoryPicture const&);

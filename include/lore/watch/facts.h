@@ -24,9 +24,9 @@ std::vector<MeanPoint> mean_curve(std::vector<std::vector<double>> const& runs);
 struct TreatmentFacts {
     std::string name, label;
     bool is_source = false;
-    std::string target;   ///< name of its target task; "" where the campaign names none
-    int planned = 0;      ///< runs
-    int started = 0;      ///< of them, those with a generation
+    std::string target, target_label;   ///< of its target task; "" where the campaign names none
+    int planned = 0;                    ///< runs
+    int started = 0;                    ///< of them, those with a generation
     int done = 0, running = 0, failed = 0;
     double mean_reward = 0;    ///< of the best so far of those started
     double best_reward = 0;    ///< of all of them

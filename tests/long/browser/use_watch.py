@@ -95,6 +95,10 @@ def watch_the_end(page):
     check(page.script("return document.querySelectorAll('#chart polyline.whole').length") == 1, "a curve of the one target treatment that has begun")
     check(page.script("return [...document.querySelectorAll('#chart text')].map(text => text.textContent)").count("generation") == 1, "its axes are named")
     check("best-of-run [balls]" in page.script("return document.getElementById('chart').textContent"), "with their units")
+    check(page.script("return getComputedStyle(document.querySelectorAll('#treatments line')[1]).stroke") == "rgb(0, 0, 0)",
+          "the first target treatment has the report's first color")
+    check(page.script("return [...document.querySelectorAll('#chart text.name')].every(name => Number(name.getAttribute('x')) + "
+                      "name.getComputedTextLength() <= name.ownerSVGElement.viewBox.baseVal.width)"), "names at curves fit")
     page.click("#with-source")
     until(page, "document.querySelectorAll('#chart polyline.whole').length === 2", "the source task can be shown too")
     page.click("#steps details:nth-child(2) summary")

@@ -34,15 +34,15 @@ struct Journey {
     std::string drawn(ArenaScene const& scene) const { return draw_trajectory(scene, {poses, carrying}, picture); }
 };
 
-constexpr std::string_view white_line = "stroke=\"#ffffff\" stroke-width=\"2.8\"",
+constexpr std::string_view pale_line = "stroke=\"#deebf7\" stroke-width=\"2.8\"",
                            blue_line = "stroke=\"#08306b\" stroke-width=\"2.8\"";
 constexpr std::string_view red_disc = "fill=\"#e0452f\"";
 
-TEST(DrawArenaTrajectory, colors_windows_from_white_for_low_to_blue_for_high_values) {
+TEST(DrawArenaTrajectory, colors_windows_from_pale_for_low_to_blue_for_high_values) {
     Journey journey;
     journey.picture.values[0] = 0;
     std::string const svg = journey.drawn(scene_of(load_arena("collectball", "source")));
-    EXPECT_EQ(count(svg, white_line), 1);
+    EXPECT_EQ(count(svg, pale_line), 1);
     EXPECT_EQ(count(svg, blue_line), 9);
 }
 

@@ -64,6 +64,16 @@ TEST(DrawTrajectory, fits_tall_and_flat_worlds) {
     }
 }
 
+TEST(DrawTrajectory, breaks_a_long_title_into_lines_above_the_plan) {
+    Journey journey;
+    journey.picture.title =
+        "a journey of a robot that went on and on, through every room and every corridor of the world, "
+        "until nobody was there who could have told where it began";
+    std::string const svg = draw_trajectory(Scene{2, 1, ""}, journey.picture);
+    EXPECT_EQ(count(svg, "font-weight=\"bold\""), 2);
+    EXPECT_EQ(count(svg, "<circle cx=\"66\" cy=\"260\" r=\"6\""), 1) << "the start, a line lower";
+}
+
 TEST(Scene, leaves_out_what_is_no_svg) {
     EXPECT_EQ(scene_of(World2x1{"<g><rect width=\"1\"/></g>"}), (Scene{2, 1, "<g><rect width=\"1\"/></g>"}));
     EXPECT_EQ(scene_of(World2x1{"<g><rect"}), (Scene{2, 1, ""}));

@@ -41,6 +41,25 @@ TEST(SvgDocument, escapes_text) {
     EXPECT_TRUE(contains(text, "&lt;script&gt;?? caf\xc3\xa9</text>")) << text;
 }
 
+TEST(TextWidth, goes_by_letters_not_bytes) {
+    EXPECT_NEAR(text_width("WWW"), 35.6, 0.1);
+    EXPECT_NEAR(text_width("iii"), 10.0, 0.1);
+    EXPECT_NEAR(text_width("caf\xc3\xa9"), text_width("cafe"), 1);
+    EXPECT_NEAR(text_width("\xe8\xbf\xb7\xe5\xae\xab", {.size = 10}), 20, 0.1) << "a labyrinth";
+    EXPECT_GT(text_width("maze", {.bold = true}), text_width("maze"));
+    EXPECT_EQ(text_width(""), 0);
+}
+
+TEST(TextWidth, says_where_a_text_is_broken_into_lines) {
+    using Lines = std::vector<std::string>;
+    EXPECT_EQ(broken_into_lines("a maze", 100), Lines{"a maze"});
+    EXPECT_EQ(broken_into_lines("the hard maze", 60), (Lines{"the hard", "maze"}));
+    EXPECT_EQ(broken_into_lines("labyrinth", 30), (Lines{"laby", "rinth"})) << "a word that is wider";
+    EXPECT_EQ(broken_into_lines("\xe8\xbf\xb7\xe5\xae\xab", 12), (Lines{"\xe8\xbf\xb7", "\xe5\xae\xab"}));
+    EXPECT_EQ(broken_into_lines("WW", 1), (Lines{"W", "W"}));
+    EXPECT_EQ(broken_into_lines("", 10), Lines{""});
+}
+
 TEST(RenderPng, gives_a_picture_of_the_scaled_size) {
     SvgDocument svg{100, 50, "\xed\xa0\x80 \xf0\x9f\xa4\x96"};   // a surrogate, and a robot
     svg.rect({0, 0}, 100, 50, {.fill = "#ff0000"});

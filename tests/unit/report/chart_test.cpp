@@ -136,6 +136,19 @@ TEST(Curves, end_with_the_runs_on_the_target_task_however_long_source_runs_are) 
     EXPECT_EQ(occurrences(svg, "<polygon"), 2);
 }
 
+TEST(Curves, tell_several_source_tasks_apart) {
+    CampaignPlan plan = two_treatments();
+    plan.sources.emplace_back().name = "another";
+    Results results;
+    EXPECT_EQ(drawn_sources(plan, results), 0u) << "no runs";
+    for (char const* name : {"source", "another"})
+        for (int g : {0, 100}) results.curves.push_back({name, g, 3, 5, 4, 6});
+    EXPECT_EQ(drawn_sources(plan, results), 2u);
+    std::string const svg = draw_curves(plan, results);
+    for (char const* dashes : {"6 4", "2 2"})
+        EXPECT_EQ(occurrences(svg, std::string{"stroke-dasharray=\""} + dashes + "\""), 2) << "the line and its key";
+}
+
 /// So many treatments with two runs each that end at rewards from 0 to 5.
 std::pair<CampaignPlan, Results> many(int treatments) {
     CampaignPlan plan;

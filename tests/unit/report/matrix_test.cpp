@@ -113,6 +113,15 @@ TEST(Matrix, is_drawn_with_numbers_labels_and_a_color_by_a12) {
         EXPECT_THAT(svg, HasSubstr(word));
 }
 
+TEST(Matrix, breaks_long_labels_of_tasks_into_lines) {
+    CampaignPlan plan = two_by_two();
+    plan.tasks[0].label = "COLLECTBALL TARGET TASK WITHOUT A DOOR";
+    plan.sources[1].label = "WWMM MEDIUM MAZE WITH WIDE LETTERS";
+    std::string const svg = draw_matrix(plan, transfer_matrix(plan, some_results()));
+    for (char const* line : {">COLLECTBALL TARGET<", ">TASK WITHOUT A<", ">WWMM MEDIUM MAZE WITH<", ">target y<"})
+        EXPECT_THAT(svg, HasSubstr(line));
+}
+
 TEST(Matrix, writes_differences_with_their_sign_and_three_digits_of_the_largest) {
     MatrixField field;
     field.difference = 1.256;

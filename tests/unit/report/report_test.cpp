@@ -79,14 +79,35 @@ TEST_F(Report, works_over_an_unfinished_campaign_and_says_so) {
     EXPECT_NE(made("report.html").find("not complete"), std::string::npos);
 }
 
+TEST_F(Report, has_no_standard_deviation_of_one_run) {
+    RunnerOptions some = options();
+    some.only = {"none/002"};
+    ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
+    write_report(plan(), directory());
+    EXPECT_THAT(made("summary.json"), ::testing::HasSubstr("\"standard_deviation\": null"));
+}
+
+TEST_F(Report, tells_programs_the_label_of_a_knowledge_base_that_is_not_its_name) {
+    std::string text = test::small_campaign;
+    write("campaign.toml", text.replace(text.find("balls = 6"), 9, "balls = 6\nlabel = \"the best\""));
+    ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);
+    write_report(plan(), directory());
+    std::string const summary = made("summary.json");
+    EXPECT_THAT(summary, ::testing::ContainsRegex("\"knowledge\": \"kb1\",\n *\"label\": \"the best\""));
+    EXPECT_THAT(summary, ::testing::ContainsRegex("\"knowledge\": \"kb2\",\n *\"kind\""));
+}
+
 TEST_F(Report, keeps_no_figure_of_a_former_one) {
     RunnerOptions some = options();
     some.only = {"source"};
     ASSERT_EQ(run_campaign(plan(), directory(), some), ExitCode::done);
     std::filesystem::create_directories(scratch.file("c/figures"));
     write("c/figures/figure5.svg", "of a campaign with other bases");
+    write("c/figures/figure3_pole.svg", "of a campaign with a task more");
+    write("c/summary.json", R"({"treatments": [{"treatment": "pole_from_none", "target": "pole"}]})");
     write("c/figures/figure3_for_a_talk.svg", "of the user");
     write_report(plan(), directory());
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure3_pole.svg")));
     EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3_for_a_talk.svg")));
     EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
     EXPECT_TRUE(std::filesystem::exists(scratch.file("c/figures/figure3.svg")));
@@ -386,18 +407,30 @@ TEST_F(Report, shows_the_path_of_another_world_over_its_scene) {
     ::unsetenv("LORE_FAKE_UNIT");
     Replay replay{"source/001", "00000000000000aa", "cos", {2, 1, "<g id=\"pole\"></g>"}, {}, {}};
     for (int k = 0; k < 40; ++k) replay.steps.push_back({0.05f * static_cast<float>(k), 0.5f, -0.25 * k});
-    write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}}});
+    write_replays(directory(),
+                  {{replay}, {{"figure5", "kb1", {-0.5, -0.25}, "c"}, {"figure6", "kb1*kb2", {0.5, 0.25}, "c"}}});
+    write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
     write_report(plan(), directory());
     std::string const page = made("report.html"), figure = made("figures/figure5.svg");
     EXPECT_NE(figure.find("<g id=\"pole\"></g>"), std::string::npos);
     EXPECT_NE(page.find("%3Cg%20id%3D%22pole%22%3E%3C%2Fg%3E"), std::string::npos) << "as an image";
     EXPECT_EQ(page.find("<g id=\"pole\""), std::string::npos) << "where a scene could run scripts";
     EXPECT_NE(figure.find("value (cos)"), std::string::npos);
+    EXPECT_EQ(figure.find("stroke=\"#08306b\" stroke-width=\"2.8\""), std::string::npos) << "which is for 0";
+    EXPECT_NE(figure.find("stroke=\"#deebf7\" stroke-width=\"2.8\""), std::string::npos) << "the lowest value";
+    EXPECT_THAT(page,
+                ::testing::HasSubstr("alt=\"Path of the best-of-run of source/001, colored by the values of kb1\""));
+    EXPECT_THAT(made("figures/figure6.svg"), ::testing::HasSubstr("product of the values (cos\u00b2)"));
+    EXPECT_EQ(page.find("(-1: not found)"), std::string::npos) << "as -1 is a value here";
     EXPECT_NE(page.find("\"world\":{\"width\":2.0"), std::string::npos);
     EXPECT_NE(page.find("\\u003cg id=\\\"pole\\\">"), std::string::npos) << "which cannot end the script";
     EXPECT_NE(page.find("[39,-9.75]"), std::string::npos) << "the reward so far";
     EXPECT_NE(page.find("encodeURIComponent(scene)"), std::string::npos) << "the script for worlds";
     EXPECT_EQ(page.find("balls"), std::string::npos);
+    write("campaign.toml", test::small_campaign);
+    write_report(plan(), directory());
+    EXPECT_EQ(made("report.html").find("id=\"replay\""), std::string::npos) << "it is no longer asked for";
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("c/figures/figure5.svg")));
 }
 
 TEST_F(Report, shows_whole_windows_of_a_life_that_their_length_does_not_divide) {
@@ -409,6 +442,7 @@ TEST_F(Report, shows_whole_windows_of_a_life_that_their_length_does_not_divide) 
     for (int k = 0; k < 45; ++k) replay.steps.push_back({static_cast<float>(k), static_cast<float>(k % 2), 0});
     double const none = std::numeric_limits<double>::quiet_NaN();
     write_replays(directory(), {{replay}, {{"figure5", "kb1", {-0.5, none}, "c", 20}}});
+    write("campaign.toml", test::small_campaign + "trajectory = \"kb1\"\n");
     write_report(plan(), directory());
     EXPECT_NE(made("report.html").find("\"values\":[-0.5,null],\"window_length\":20"), std::string::npos);
     // Of the path, window by window: the line of the first in its color, the others in gray.

@@ -120,6 +120,18 @@ TEST_F(Facts, of_a_run_at_work_are_its_progress_and_the_time_that_is_left) {
     }
 }
 
+TEST_F(Facts, name_the_target_task_of_a_treatment_by_its_label_too) {
+    write("campaign.toml", "title = \"Two tasks\"\nruns = 2\ngenerations = 20\n"
+                           "[[source]]\nname = \"easy\"\nconfig = \"source.toml\"\n"
+                           "[[target]]\nname = \"hard\"\nlabel = \"the hard task\"\nconfig = \"target.toml\"\n"
+                           "[transfer]\nmethod = \"shaping\"\n");
+    json const treatments = document(watcher().look())["treatments"];
+    ASSERT_EQ(treatments.size(), 3u);
+    EXPECT_FALSE(treatments[0].contains("target_label")) << "a source task";
+    EXPECT_EQ(treatments[1]["target"], "hard");
+    EXPECT_EQ(treatments[1]["target_label"], "the hard task");
+}
+
 TEST_F(Facts, of_negative_rewards_name_the_greatest_with_its_unit) {
     ::setenv("LORE_FAKE_UNIT", "cos", 1);
     ASSERT_EQ(run_campaign(plan(), directory(), options()), ExitCode::done);

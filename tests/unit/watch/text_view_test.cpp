@@ -55,6 +55,14 @@ TEST(TextView, is_a_picture_with_the_campaign_in_the_last_line) {
                             "[#####.....] 1 of 3 steps done, 1 running, 1 failed, about 30:00 left"));
 }
 
+TEST(TextView, has_a_column_as_wide_as_the_longest_name) {
+    CampaignFacts named = facts();
+    named.steps[1].step.name = "maze_hard_from_maze_medium/002";
+    std::vector<std::string> const lines = picture_of(named);
+    EXPECT_THAT(lines[1], HasSubstr("  none                              1 of 3    done"));
+    EXPECT_THAT(lines[2], HasSubstr("  maze_hard_from_maze_medium/002 [####"));
+}
+
 TEST(TextView, has_rewards_of_any_unit) {
     CampaignFacts other = facts();
     other.treatments[0].mean_reward = -130.25;

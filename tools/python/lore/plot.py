@@ -3,7 +3,7 @@
     python3 -m lore.plot runs/small --out figures --formats svg png
 
 The functions return matplotlib Figures that belong to no window; save one with figure.savefig("figure3.svg"). Colors
-are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from white to dark for values.
+are Okabe and Ito's (2008), told apart by color-blind readers, and one blue from pale to dark for values.
 """
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
+import textwrap
 from typing import Any, Callable, Sequence
 
 import matplotlib
@@ -31,9 +32,10 @@ from .table import Table
 
 COLORS = ("#000000", "#56b4e9", "#e69f00", "#d55e00", "#0072b2", "#009e73", "#cc79a7")
 VALUE_COLORS = LinearSegmentedColormap.from_list(
-    "lore", ["#ffffff", "#deebf7", "#abd0e6", "#6baed6", "#3787c0", "#105ba4", "#08306b"]
+    "lore", ["#deebf7", "#abd0e6", "#6baed6", "#3787c0", "#105ba4", "#08306b"]
 )
 _SOURCE_COLOR, _GRAY, _WALL = "#777777", "#8c8c8c", "#3a3a3a"
+_DASHES = ((5, 3), (1.5, 1.5), (7, 2.5, 1.5, 2.5), (7, 1.5, 1.5, 1.5, 1.5, 1.5))
 _STEPS_BETWEEN_ROBOTS = 50
 
 
@@ -44,30 +46,39 @@ def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     treatments whose reward has another unit than the first target task's are left out.
     """
     report = _report(report)
-    curves, treatments, names = report.curves, report.shown(task), report.labels
+    curves, treatments, names = report.curves, report.shown(task), _labels(report, task)
     target_rows = curves["generation"][np.isin(curves["treatment"], treatments)]
     last = target_rows.max() if len(target_rows) else np.inf  # source runs may be longer
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
     axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report, task)} (mean of best-of-runs)")
     sources = report.sources if task is None else []
-    dashed = {"color": _SOURCE_COLOR, "dashes": (5, 3)}
-    for treatment, style in [*((source, dashed) for source in sources), *_styles(treatments)]:
+    of_sources = [(name, {"color": _SOURCE_COLOR, "dashes": _DASHES[i % len(_DASHES)]}) for i, name in enumerate(sources)]
+    for treatment, style in [*of_sources, *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
         if len(rows) == 0 or (task is None and not _has_unit(report, treatment)):
             continue
         shown = rows["generation"] <= last
         at = rows["generation"][shown]
-        label = f"{names.get(treatment, treatment)} (n = {rows['runs'][shown][-1]})"
+        label = f"{textwrap.fill(names.get(treatment, treatment), 28)} (n = {rows['runs'][shown][-1]})"
         axes.fill_between(at, rows["low"][shown], rows["high"][shown], color=style["color"], alpha=0.12, linewidth=0)
         axes.plot(at, rows["mean"][shown], label=label, **style)
     axes.margins(x=0.01)
     if report.reward_word == "balls":
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, max(1.0, axes.get_ylim()[1]))
     axes.grid(axis="y", color="#dddddd", linewidth=0.7)
     axes.spines[["top", "right"]].set_visible(False)
     if axes.lines:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
     return figure
+
+
+def _labels(report: Report, task: str | None) -> dict[str, str]:
+    """Of treatments and pools; those of a task without its own label and a colon, which all of them begin with."""
+    labels = report.labels
+    if task is None:
+        return labels
+    before, colon, _ = os.path.commonprefix([labels[name] for name in report.tasks[task]]).partition(": ")
+    return {name: label.removeprefix(before + colon) for name, label in labels.items()} if colon else labels
 
 
 def _reward(report: Report, task: str | None) -> str:
@@ -85,22 +96,23 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
     (*) and p < 0.001 (**), two-sided Mann-Whitney, uncorrected as in the paper. `task`: as of figure3."""
     report = _report(report)
     final = report.final
+    names, styles = _labels(report, task), dict(_styles(report.shown(task)))
     of_all = {
         name: final[report.reward_word][np.isin(final["treatment"], report.members(name))]
-        for name in report.shown(task)
+        for name in styles
         if task is not None or _has_unit(report, name)
     }
     treatments = [name for name, of_one in of_all.items() if len(of_one)]
     rewards = [of_all[name] for name in treatments]
     figure = Figure(figsize=(max(4.0, 1.1 + 1.05 * len(treatments)), 5.2), layout="constrained")
     axes = figure.add_subplot(ylabel=f"{_reward(report, task)} (best-of-run)")
-    for place, (of_one, (_, style)) in enumerate(zip(rewards, _styles(treatments)), 1):
+    for place, (name, of_one) in enumerate(zip(treatments, rewards), 1):
+        color = styles[name]["color"]
         axes.boxplot(of_one, positions=[place], widths=0.55, showfliers=False, patch_artist=True,
-                     boxprops={"facecolor": (*to_rgb(style["color"]), 0.18)},
+                     boxprops={"facecolor": (*to_rgb(color), 0.18)},
                      medianprops={"color": "#222222", "linewidth": 2})  # fmt: skip
-        axes.plot(place + _side_by_side(of_one), of_one, "o", color=style["color"], markersize=4, alpha=0.75)
-    names = report.labels
-    labels = [f"{names.get(name, name)}\nn = {len(of_one)}" for name, of_one in zip(treatments, rewards)]
+        axes.plot(place + _side_by_side(of_one), of_one, "o", color=color, markersize=4, alpha=0.75)
+    labels = [f"{textwrap.fill(names.get(name, name), 15)}\nn = {len(of_one)}" for name, of_one in zip(treatments, rewards)]
     axes.set_xticks(range(1, len(treatments) + 1), labels, fontsize=8)
     counted = report.reward_word == "balls"
     if counted:
@@ -115,6 +127,8 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
                   color="#222222", lw=0.8)  # fmt: skip
         axes.text((low + high) / 2, y, mark, ha="center", va="center_baseline",
                   bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})  # fmt: skip
+    if counted:
+        axes.set_ylim(-0.05, max(1.4, axes.get_ylim()[1]))
     return figure
 
 
@@ -174,11 +188,12 @@ def _has_unit(report: Report, treatment: str) -> bool:
 
 def _styles(treatments: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
     """Color by place, as in the report; dashed from the eighth on."""
-    dashed: dict[str, Any] = {"dashes": (5, 3)}
-    return [
-        (name, {"color": COLORS[i % len(COLORS)], **(dashed if i >= len(COLORS) else {})})
-        for i, name in enumerate(treatments)
-    ]
+
+    def style(i: int) -> dict[str, Any]:
+        color, turn = COLORS[i % len(COLORS)], i // len(COLORS) % (len(_DASHES) + 1)
+        return {"color": color, "dashes": _DASHES[turn - 1]} if turn > 0 else {"color": color}
+
+    return [(name, style(i)) for i, name in enumerate(treatments)]
 
 
 def _side_by_side(rewards: NDArray[Any]) -> NDArray[np.float64]:
@@ -215,7 +230,7 @@ def _has_panels(report: Report, figure: str) -> bool:
 
 
 def _panels(report: Report, figure_name: str) -> Figure:
-    scenes, values, names = report.scenes, report.values.where(figure=figure_name), report.labels
+    scenes, values, names = report.scenes, report.values.where(figure=figure_name), report.knowledge_labels
     name = next(iter(scenes), "")  # the source run that the figures show comes first
     steps = report.replay.where(replay=name)
     if len(steps) == 0:
@@ -265,7 +280,7 @@ def _draw_panel(part: Any, scene: Scene | WorldScene, steps: Table, values: NDAr
     norm = Normalize(*_range(values))
     what = f"product of the values ({unit}$^{factors}$)" if product else f"value ({unit})"
     plan, strip = part.subplots(2, 1, gridspec_kw={"height_ratios": [3.3, 1]})
-    plan.set_title(title, loc="left", fontsize=11)
+    part.suptitle(textwrap.fill(title, 80), x=0.01, ha="left", fontsize=11)
     if isinstance(scene, Scene):
         _draw_scene(plan, scene)
         _draw_robots(plan, scene, steps)
@@ -312,10 +327,11 @@ def _draw_world(axes: Any, scene: WorldScene, steps: Table) -> None:
     axes.set(xlim=(0, width), ylim=(height, 0), aspect="equal", xlabel="x (u)", ylabel="y (u)")
     if scene.svg:
         axes.imshow(_rendered(scene), extent=(0, width, height, 0), zorder=0, interpolation="antialiased")
-    for step, color in ((0, "#2f9e6e"), (-1, "#e0452f")):
-        axes.plot(steps["x"][step], steps["y"][step], "o", color=color, mec="#222222", mew=0.8, ms=7, zorder=4)
+    for step, color, label in ((0, "#2f9e6e", "start"), (-1, "#e0452f", "end")):
+        axes.plot(steps["x"][step], steps["y"][step], "o", color=color, mec="#222222", mew=0.8, ms=7, zorder=4, ls="",
+                  label=label)  # fmt: skip
     axes.plot([], [], color=_GRAY, lw=1.5, label="not in the knowledge base")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), frameon=False, fontsize=8)
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=3, frameon=False, fontsize=8)
 
 
 def _rendered(scene: WorldScene) -> NDArray[Any]:

@@ -134,14 +134,13 @@ class Report:
         return self.pools.get(name, [name])
 
     def shown(self, task: str | None = None) -> list[str]:
-        """The names of treatments and pools that figures 3 and 4 show, of one of `tasks` or of all."""
-        there = dict.fromkeys(self.final["treatment"].tolist())
+        """The names of treatments and pools that figures 3 and 4 show, of one of `tasks` or of all, whether or not they
+        have finished runs: the place gives the color."""
+        treatments = list(self._treatments())
         summary = self.summary if os.path.exists(self._file("summary.json")) else {}
         names = [str(name) for name in summary.get("figure3", [])]
-        if not names:
-            names = list(dict.fromkeys([*(name for name in self.labels if name in there), *there]))
-        targets = self.tasks[task] if task is not None else [name for name in there if name not in self.sources]
-        return [name for name in names if any(member in targets for member in self.members(name))]
+        targets = self.tasks[task] if task is not None else [name for name in treatments if name not in self.sources]
+        return [name for name in names or treatments if any(member in targets for member in self.members(name))]
 
     @property
     def runs(self) -> Table:
@@ -241,23 +240,42 @@ class Report:
 
     @property
     def labels(self) -> dict[str, str]:
-        """The label of each treatment, in the order of figures, the source's first, and pool; the name of each
-        knowledge base.
+        """The label of each treatment, in the order of figures, the source's first, and pool; of a knowledge base
+        whose name none of them has.
 
         Where summary.json is missing, the names of treatments serve as labels, in the order of final.csv.
         """
+        labels = self._treatments()
+        if not os.path.exists(self._file("summary.json")):
+            return labels
+        try:
+            for entry in self.summary.get("pools", []):
+                labels.setdefault(entry["pool"], entry["label"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise Damaged(self._file("summary.json"), f"it does not describe pools: {error!r}") from error
+        for name, label in self.knowledge_labels.items():
+            labels.setdefault(name, label)
+        return labels
+
+    @property
+    def knowledge_labels(self) -> dict[str, str]:
+        """The label of each knowledge base; empty where summary.json is missing."""
+        if not os.path.exists(self._file("summary.json")):
+            return {}
+        try:
+            bases = self.summary.get("knowledge", [])
+            return {str(entry["knowledge"]): str(entry.get("label", entry["knowledge"])) for entry in bases}
+        except (KeyError, TypeError, AttributeError) as error:
+            raise Damaged(self._file("summary.json"), f"it does not describe knowledge: {error!r}") from error
+
+    def _treatments(self) -> dict[str, str]:
+        """The label of each treatment, in the order of figures."""
         if not os.path.exists(self._file("summary.json")):
             return {str(name): str(name) for name in dict.fromkeys(self.final["treatment"].tolist())}
         try:
-            summary = self.summary
-            labels = {entry["treatment"]: entry["label"] for entry in summary["treatments"]}
-            for entry in summary.get("pools", []):
-                labels.setdefault(entry["pool"], entry["label"])
-            for entry in summary.get("knowledge", []):
-                labels.setdefault(entry["knowledge"], entry["knowledge"])
-        except (KeyError, TypeError, AttributeError) as error:
-            raise Damaged(self._file("summary.json"), f"it does not describe treatments: {error}") from error
-        return labels
+            return {str(entry["treatment"]): str(entry["label"]) for entry in self.summary["treatments"]}
+        except (KeyError, TypeError) as error:
+            raise Damaged(self._file("summary.json"), f"it does not describe treatments: {error!r}") from error
 
     def _file(self, name: str) -> str:
         return os.path.join(self.path, name)
