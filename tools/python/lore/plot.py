@@ -52,7 +52,9 @@ def figure3(report: Report | FilePath, task: str | None = None) -> Figure:
     figure = Figure(figsize=(8.5, 4.8), layout="constrained")
     axes = figure.add_subplot(xlabel="generation", ylabel=f"{_reward(report, task)} (mean of best-of-runs)")
     sources = report.sources if task is None else []
-    of_sources = [(name, {"color": _SOURCE_COLOR, "dashes": _DASHES[i % len(_DASHES)]}) for i, name in enumerate(sources)]
+    of_sources = [
+        (name, {"color": _SOURCE_COLOR, "dashes": _DASHES[place % len(_DASHES)]}) for place, name in enumerate(sources)
+    ]
     for treatment, style in [*of_sources, *_styles(treatments)]:
         rows = curves.where(treatment=treatment)
         if len(rows) == 0 or (task is None and not _has_unit(report, treatment)):
@@ -112,7 +114,9 @@ def figure4(report: Report | FilePath, task: str | None = None) -> Figure:
                      boxprops={"facecolor": (*to_rgb(color), 0.18)},
                      medianprops={"color": "#222222", "linewidth": 2})  # fmt: skip
         axes.plot(place + _side_by_side(of_one), of_one, "o", color=color, markersize=4, alpha=0.75)
-    labels = [f"{textwrap.fill(names.get(name, name), 15)}\nn = {len(of_one)}" for name, of_one in zip(treatments, rewards)]
+    labels = [
+        f"{textwrap.fill(names.get(name, name), 15)}\nn = {len(of_one)}" for name, of_one in zip(treatments, rewards)
+    ]
     axes.set_xticks(range(1, len(treatments) + 1), labels, fontsize=8)
     counted = report.reward_word == "balls"
     if counted:
