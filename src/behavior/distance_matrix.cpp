@@ -24,7 +24,7 @@ DistanceMatrix DistanceMatrix::select(std::span<int const> members) const {
 DistanceMatrix DistanceMatrix::extended(int count, DistanceMatrix spare) const {
     spare.size_ = size_ + count;
     spare.values_.resize(pairs_before(spare.size_));
-    std::fill(std::copy(values_.begin(), values_.end(), spare.values_.begin()), spare.values_.end(), 0.0);
+    std::copy(values_.begin(), values_.end(), spare.values_.begin());
     return spare;
 }
 

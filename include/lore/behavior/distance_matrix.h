@@ -31,8 +31,8 @@ public:
 
     /// The matrix of the chosen members, in that order. Precondition: each is chosen once.
     DistanceMatrix select(std::span<int const> members) const;
-    /// The matrix of the members followed by `count` newcomers, whose distances are still 0. Takes the memory of a
-    /// matrix that is no longer needed: of large ones, new memory would cost more than what is written there.
+    /// The matrix of the members followed by `count` newcomers, whose distances are to be set. Takes the memory of
+    /// a matrix that is no longer needed: of large ones, new memory would cost more than what is written there.
     DistanceMatrix extended(int count, DistanceMatrix spare) const;
     /// Mean distance of every member to the whole pool, itself included: BD(x). Each sum runs in pool order.
     std::vector<double> means() const;
