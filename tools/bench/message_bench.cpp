@@ -3,6 +3,7 @@
 #include "evolved_state.h"
 
 #include <lore/archive/messages.h>
+#include <lore/behavior/mean_distances.h>
 
 #include <benchmark/benchmark.h>
 
@@ -89,13 +90,17 @@ void distances_in(benchmark::State& state, DistanceKind kind) {
 struct Case {
     char const* name;
     void (*run)(benchmark::State&, DistanceKind);
+    bool of_rows = false;
 };
 bool const registered = [] {
-    for (DistanceKind const kind : {DistanceKind::hamming, DistanceKind::trajectory})
-        for (Case const& one : {Case{"pool/pack", pool_out}, Case{"pool/unpack", pool_in},
-                                Case{"distances/pack", distances_out}, Case{"distances/unpack", distances_in}})
+    for (Case const& one : {Case{"pool/pack", pool_out}, Case{"pool/unpack", pool_in},
+                            Case{"distances/pack", distances_out, true}, Case{"distances/unpack", distances_in, true}})
+        for (DistanceKind const kind :
+             {DistanceKind::adhoc, DistanceKind::hamming, DistanceKind::trajectory, DistanceKind::entropy}) {
+            if (one.of_rows && is_euclidean(kind)) continue;   // of these only means are sent
             benchmark::RegisterBenchmark(fmt::format("message/{}/{}", one.name, name(kind)).c_str(), one.run, kind)
                 ->Unit(benchmark::kMicrosecond);
+        }
     return true;
 }();
 

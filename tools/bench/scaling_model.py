@@ -7,8 +7,8 @@ KINDS = ("adhoc", "hamming", "trajectory", "entropy")
 POPULATIONS = (50, 100, 200, 400, 800)
 BATCHES = (1, 4, 8, 12, 16, 24, 32, 48, 64, 100, 200)
 USUAL_POPULATION = 200
-LARGE = 2000            # individuals, of which the ranks share distances
-SHARED = ("hamming", "trajectory")   # that they share (src/cluster/distance_farm.cpp)
+LARGE = 2000            # individuals, of which the ranks share distances (src/cluster/distance_farm.cpp)
+IN_MATRIX = ("hamming", "trajectory")   # of which ranks measure rows of the matrix; of others, the means of members
 LANES = {"v4": 32, "v3": 16, "baseline": 8}   # of a rank
 SENDING = 4e-6          # s; assumed: what MPI takes of rank 0 for an individual's two messages
 IDEAL = "no delay"
@@ -91,17 +91,20 @@ class Measured:
         evaluating = self.evaluating(evaluation, LARGE, ranks, 0.0, network, self.message, math.inf)
         shared = evaluation * self.in_lanes(self.share(LARGE, ranks)) / self.in_lanes(LARGE)
         rest = wall - evaluation - distances   # selection, files and what no one accounts for
-        if kind not in SHARED:
-            return evaluating + distances + rest, shared
-        pool, pairs = 2 * LARGE, 1.5 * LARGE ** 2   # the distances among the survivors are known
+        pool = 2 * LARGE
         latency, bandwidth = network
         def message(what, quantity):
             return self(f"message/{what}", kind, quantity)
         hop = latency + 2 * pool * message("pool", "bytes") * 8 / bandwidth   # to two others
         handed_on = pool * message("pool", "pack") + int(math.log2(ranks)) * hop + pool * message("pool", "unpack")
-        back = pairs * message("distances", "pack") / ranks + latency + (ranks - 1) / ranks * pairs * (
-            message("distances", "unpack") + message("distances", "bytes") * 8 / bandwidth)
-        return evaluating + handed_on + distances / ranks + back + rest, shared + distances / ranks
+        if kind in IN_MATRIX:
+            measuring, results = distances / ranks, 1.5 * LARGE ** 2   # those among the survivors are known
+            packing, unpacking, size = (message("distances", name) for name in ("pack", "unpack", "bytes"))
+        else:   # pairs of two ranks' members are measured twice
+            measuring, results = distances * (2 / ranks - 1 / ranks ** 2), pool
+            packing, unpacking, size = 0.0, 0.0, 8
+        back = results * packing / ranks + latency + (ranks - 1) / ranks * results * (unpacking + size * 8 / bandwidth)
+        return evaluating + handed_on + measuring + back + rest, shared + measuring
 
     def on_nodes(self, ranks, name):
         """Seconds of a generation of the source task on nodes that share this machine's processors. What a message
