@@ -70,7 +70,7 @@ private:
 };
 
 /// What is to be measured, and how rank 0 does its part.
-struct Request {
+struct Measurement {
     DistanceKind kind;
     std::span<Descriptors const* const> pool;
     int known;
@@ -78,11 +78,11 @@ struct Request {
     std::function<std::span<double>(int first, int last)> result;   ///< where the answer of that range belongs
 };
 
-void measure_everywhere(FarmState& state, Request const& request) {
+void measure_everywhere(FarmState& state, Measurement const& wanted) {
     Stopwatch watch;
-    Shares const shares{request.kind, request.known, static_cast<int>(request.pool.size()), state.ranks()};
-    hand_on(state.post, 0, state.ranks(), pack_pool(request.kind, request.known, request.pool));
-    request.measure(shares.first(0), shares.last(0));
+    Shares const shares{wanted.kind, wanted.known, static_cast<int>(wanted.pool.size()), state.ranks()};
+    hand_on(state.post, 0, state.ranks(), pack_pool(wanted.kind, wanted.known, wanted.pool));
+    wanted.measure(shares.first(0), shares.last(0));
     state.times.distances += watch.lap();
     MessageKind const kinds[]{MessageKind::distances, MessageKind::failure};
     for (int left = shares.ranks() - 1; left > 0; --left) {
@@ -92,24 +92,24 @@ void measure_everywhere(FarmState& state, Request const& request) {
             throw Error(fmt::format("measuring distances failed on rank {}", message.sender), text_of(message),
                         "Resume the run.");
         if (message.sender >= shares.ranks()) throw damaged_message("it answers for rows that no rank was given");
-        unpack_distances(message.payload, request.result(shares.first(message.sender), shares.last(message.sender)));
+        unpack_distances(message.payload, wanted.result(shares.first(message.sender), shares.last(message.sender)));
         state.times.distances += watch.lap();
     }
 }
 
 /// Everywhere if there are `least` to measure.
-void measure_here_or_everywhere(FarmState& state, Request const& request, int least) {
-    int const size = static_cast<int>(request.pool.size());
-    if (state.ranks() > 1 && size - request.known >= least) {
+void measure_here_or_everywhere(FarmState& state, Measurement const& wanted, int least) {
+    int const size = static_cast<int>(wanted.pool.size());
+    if (state.ranks() > 1 && size - wanted.known >= least) {
         try {
-            return measure_everywhere(state, request);
+            return measure_everywhere(state, wanted);
         } catch (...) {
             state.give_up();
             throw;
         }
     }
     Stopwatch watch;
-    request.measure(request.known, size);
+    wanted.measure(wanted.known, size);
     state.times.distances += watch.lap();
 }
 
