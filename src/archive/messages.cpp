@@ -6,9 +6,6 @@
 #include "field_limits.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 

@@ -4,13 +4,14 @@
 
 #include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
+#include <lore/core/file.h>
 #include <lore/core/input_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <span>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -33,10 +34,6 @@ FileColumns columns_of(std::string_view header, std::string const& path) {
     if (!columns)
         refuse(path, "its columns are not those of progress.csv, or those of a newer Lore", "Check the path.");
     return *std::move(columns);
-}
-
-Error write_error(std::string const& path) {
-    return Error(fmt::format("cannot write {}", path), std::strerror(errno), "Mend that and resume the run.");
 }
 
 }   // namespace
@@ -98,9 +95,9 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes, std::strin
                         "Take a copy that is whole, or start the run anew in another directory.");
     }
     file_ = FileDescriptor{::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (fresh ? O_TRUNC : 0), 0666)};
-    if (file_.get() < 0) throw write_error(path_);
+    if (file_.get() < 0) throw file_error("write", path_, errno);
     if (!fresh && (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0 || ::lseek(file_.get(), 0, SEEK_END) < 0))
-        throw write_error(path_);
+        throw file_error("write", path_, errno);
     bytes_ = bytes;
     if (fresh) {
         columns_ = all_columns();
@@ -112,19 +109,14 @@ ProgressWriter::ProgressWriter(std::string path, std::uint64_t bytes, std::strin
 }
 
 void ProgressWriter::write(std::string_view line) {
-    while (!line.empty()) {
-        ssize_t const written = ::write(file_.get(), line.data(), line.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw write_error(path_);
-        bytes_ += static_cast<std::uint64_t>(written);
-        line.remove_prefix(static_cast<std::size_t>(written));
-    }
+    write_fully(file_.get(), std::as_bytes(std::span{line}), path_);
+    bytes_ += line.size();
 }
 
 void ProgressWriter::add(GenerationSummary const& row) { write(row_text(columns_, row) + "\n"); }
 
 std::uint64_t ProgressWriter::sync() {
-    if (::fsync(file_.get()) != 0 && errno != EINVAL) throw write_error(path_);
+    sync_file(file_.get(), path_);
     return bytes_;
 }
 
