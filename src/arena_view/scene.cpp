@@ -1,10 +1,10 @@
 #include <lore/arena_view/scene.h>
 
 #include <lore/collectball/arena.h>
+#include <lore/core/shortest_digits.h>
 
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace lore {
@@ -13,10 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The shortest number that reads back to the same float; a double's digits would pretend to know more.
-Json number(float value) { return std::stod(fmt::format("{}", value)); }
-Json pair(Point const& p) { return {number(p.x), number(p.y)}; }
-Json corners(Rect const& r) { return {number(r.x0), number(r.x1), number(r.y0), number(r.y1)}; }
+Json pair(Point const& p) { return {shortest_digits(p.x), shortest_digits(p.y)}; }
+Json corners(Rect const& r) {
+    return {shortest_digits(r.x0), shortest_digits(r.x1), shortest_digits(r.y0), shortest_digits(r.y1)};
+}
 
 template <class Items, class Function>
 Json list(Items const& items, Function const& text) {
@@ -45,17 +45,18 @@ ArenaScene scene_of(Arena const& arena) {
 }
 
 std::string to_json(ArenaScene const& scene) {
-    Json const json{
-        {"width", number(scene.width)},
-        {"height", number(scene.height)},
-        {"walls", list(scene.walls, corners)},
-        {"doors", list(scene.doors, corners)},
-        {"balls", list(scene.ball_positions, pair)},
-        {"balls_at_start", scene.balls_at_start},
-        {"basket", {number(scene.basket_center.x), number(scene.basket_center.y), number(scene.basket_radius)}},
-        {"basket_lights", list(scene.basket_lights, pair)},
-        {"switch", pair(scene.switch_position)},
-        {"robot_radius", number(scene.robot_radius)}};
+    Json const json{{"width", shortest_digits(scene.width)},
+                    {"height", shortest_digits(scene.height)},
+                    {"walls", list(scene.walls, corners)},
+                    {"doors", list(scene.doors, corners)},
+                    {"balls", list(scene.ball_positions, pair)},
+                    {"balls_at_start", scene.balls_at_start},
+                    {"basket",
+                     {shortest_digits(scene.basket_center.x), shortest_digits(scene.basket_center.y),
+                      shortest_digits(scene.basket_radius)}},
+                    {"basket_lights", list(scene.basket_lights, pair)},
+                    {"switch", pair(scene.switch_position)},
+                    {"robot_radius", shortest_digits(scene.robot_radius)}};
     return json.dump();
 }
 

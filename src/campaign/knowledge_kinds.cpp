@@ -39,6 +39,7 @@ void read_build(TomlTable const& table, KnowledgePlan& plan) {
             table.fail("options", fmt::format("'{}' is for the runs that use the base too", option),
                        "Write window_length = or match_threshold = instead.");
     plan.match_threshold = table.number("match_threshold", 0, 1000);
+    if (plan.match_threshold == 0.0) table.fail("match_threshold", "0 matches nothing", "Take a positive number.");
     if (auto const steps = table.integer("window_length", 1, longest_window))
         plan.window_length = static_cast<int>(*steps);
 }

@@ -5,6 +5,7 @@
 #include <lore/core/error.h>
 #include <lore/core/file.h>
 #include <lore/core/input_file.h>
+#include <lore/core/shortest_digits.h>
 #include <lore/knowledge/window.h>
 #include <lore/world/reward_text.h>
 
@@ -32,9 +33,6 @@ Json list(Items const& items, Function const& text) {
     for (auto const& item : items) array.push_back(text(item));
     return array;
 }
-
-/// A float as the shortest number that reads back to the same; a double's digits would pretend to know more.
-Json number(float value) { return std::stod(fmt::format("{}", value)); }
 
 Scene read_scene(Json const& json) {
     Scene scene{json.at("width"), json.at("height"), svg_or_nothing(json.at("svg"))};
@@ -84,8 +82,9 @@ Json json_of(Replay const& replay, bool arena) {
         json["scene"] = Json::parse(to_json(replay.arena->scene));
     } else {
         json["reward_unit"] = replay.reward_unit;
-        json["world"] = {
-            {"width", number(replay.scene.width)}, {"height", number(replay.scene.height)}, {"svg", replay.scene.svg}};
+        json["world"] = {{"width", shortest_digits(replay.scene.width)},
+                         {"height", shortest_digits(replay.scene.height)},
+                         {"svg", replay.scene.svg}};
     }
     return json;
 }

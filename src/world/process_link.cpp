@@ -27,7 +27,7 @@ std::string quoted(std::string_view bytes) {
     std::string_view const line = bytes.substr(0, std::min(bytes.find('\n'), shown_of_nonsense));
     bool const is_text = std::ranges::all_of(
         line, [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\033'; });
-    if (is_text) return fmt::format("'{}'", one_line(line));
+    if (is_text) return fmt::format("'{}'", line);
     std::string hex;
     for (char const c : bytes.substr(0, 8)) hex += fmt::format(" {:02x}", static_cast<unsigned char>(c));
     return "bytes" + hex;
@@ -36,7 +36,7 @@ std::string quoted(std::string_view bytes) {
 }   // namespace
 
 ProcessLink::ProcessLink(WorldProcess const& process)
-    : patience_(process.patience), called_(one_line(fmt::format("world {}", fmt::join(process.command, " ")))),
+    : patience_(process.patience), called_(fmt::format("world {}", fmt::join(process.command, " "))),
       child_(process.command, process.folder), buffer_(std::size_t{64} << 10) {}
 
 std::span<char const> ProcessLink::ask(FrameWriter&& question, std::string_view expected, std::size_t most,
@@ -156,7 +156,7 @@ void ProcessLink::failed(std::string_view tag, std::string_view reason, std::str
         child_.kill();
         refuse_settings(called_, reason);
     }
-    give_up(fmt::format("{} failed {}", called_, moment), one_line(reason), "Mend it: what it said is above.");
+    give_up(fmt::format("{} failed {}", called_, moment), reason, "Mend it: what it said is above.");
 }
 
 }   // namespace lore

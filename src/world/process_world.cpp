@@ -160,7 +160,7 @@ ProcessWorld::ProcessWorld(WorldProcess const& process, std::string const& setti
     if (std::string const why = why_invalid(facts_); !why.empty()) refuse_world(called, why, remedy);
     if (scene_.size() > longest_scene)
         refuse_world(called, fmt::format("its scene has more than {} bytes", longest_scene), "Draw less.");
-    link_.call(one_line(fmt::format("{} from {}", title(facts_), fmt::join(process.command, " "))));
+    link_.call(fmt::format("{} from {}", title(facts_), fmt::join(process.command, " ")));
 }
 
 std::unique_ptr<Life> ProcessWorld::begin() const { return std::make_unique<SingleLife>(begin_lives(1)); }

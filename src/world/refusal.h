@@ -8,9 +8,6 @@ namespace lore {
 
 // How worlds of foreign code, in libraries and processes, are told off. `called` is "world pendulum short from FILE".
 
-/// A text of foreign code as messages show it: without control characters, in one line.
-std::string one_line(std::string_view text);
-
 /// Throws Error: it states what breaks a rule.
 [[noreturn]] void refuse_world(std::string_view called, std::string_view why, std::string_view remedy);
 /// Throws UsageError with the world's own reason.

@@ -1,12 +1,12 @@
 #include "command.h"
 
 #include <lore/core/checksum.h>
+#include <lore/core/shortest_digits.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <memory>
 
 namespace lore::world {
@@ -24,9 +24,6 @@ nlohmann::ordered_json channels_json(std::vector<ChannelInfo> const& channels) {
     return json;
 }
 
-/// The double of the float's shortest digits: 3.3, not 3.3000001907348633.
-double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
-
 void print_json(OpenedWorld const& opened) {
     WorldFacts const& facts = opened.world->facts();
     WorldOrigin const& origin = opened.origin;
@@ -37,8 +34,8 @@ void print_json(OpenedWorld const& opened) {
                                 {"effectors", channels_json(facts.effectors)},
                                 {"outcome_size", facts.outcome_size},
                                 {"max_batch", facts.max_batch},
-                                {"width", shortest(facts.width)},
-                                {"height", shortest(facts.height)},
+                                {"width", shortest_digits(facts.width)},
+                                {"height", shortest_digits(facts.height)},
                                 {"scene_bytes", opened.world->scene_svg().size()},
                                 {"settings", origin.settings}};
     if (!origin.file.empty())

@@ -183,6 +183,7 @@ TEST_F(Campaign, has_runs_read_the_windows_of_their_base) {
         << other;
     EXPECT_NE(complaint_with("options = [\"--threshold\", \"1.5\"]\n", "short", "").find("Write window_length"),
               std::string::npos);
+    EXPECT_NE(complaint_with("match_threshold = 0\n", "short", "").find("0 matches nothing"), std::string::npos);
 }
 
 TEST_F(Campaign, orders_steps_after_those_that_they_wait_for) {
