@@ -48,6 +48,13 @@ void visit_fields(AnyEvaluation& evaluation, Visit const& visit) {
     for_each_field(descriptors, visit);
 }
 
+void put_delivery(ByteWriter& out, Delivery const& delivery) {
+    auto const& [ticket, evaluation] = delivery;
+    out.put_varint(static_cast<std::uint64_t>(ticket));
+    int const words_a_step = evaluation.descriptors.words();
+    visit_fields(evaluation, [&](auto const& field) { put_field(out, field, words_a_step); });
+}
+
 /// Calls `visit` with what distances of this kind compare.
 template <class AnyDescriptors, class Visit>
 void visit_compared(DistanceKind kind, AnyDescriptors& descriptors, Visit const& visit) {
@@ -103,12 +110,31 @@ std::vector<Genome> unpack_genomes(std::span<std::byte const> bytes) {
 Bytes pack_deliveries(std::span<Delivery const> deliveries) {
     ByteWriter out;
     out.put_varint(deliveries.size());
-    for (auto const& [ticket, evaluation] : deliveries) {
-        out.put_varint(static_cast<std::uint64_t>(ticket));
-        int const words_a_step = evaluation.descriptors.words();
-        visit_fields(evaluation, [&](auto const& field) { put_field(out, field, words_a_step); });
-    }
+    for (Delivery const& delivery : deliveries) put_delivery(out, delivery);
     return out.take();
+}
+
+std::vector<Bytes> pack_deliveries(std::span<Delivery const> deliveries, std::size_t longest) {
+    constexpr std::size_t count_bytes = 3;   // at most, of up to two million deliveries
+    ByteWriter all;
+    std::vector<std::size_t> ends{0};   // of the deliveries in it
+    for (Delivery const& delivery : deliveries) {
+        put_delivery(all, delivery);
+        ends.push_back(all.size());
+    }
+    std::vector<Bytes> messages;
+    for (std::size_t first = 0; first < deliveries.size();) {
+        std::size_t last = first + 1;
+        while (last < deliveries.size() && count_bytes + ends[last + 1] - ends[first] <= longest) ++last;
+        std::size_t const bytes = ends[last] - ends[first];
+        ByteWriter out;
+        out.reserve(count_bytes + bytes + room_for_trailer);
+        out.put_varint(last - first);
+        out.put_all(std::span{all.bytes()}.subspan(ends[first], bytes));
+        messages.push_back(out.take());
+        first = last;
+    }
+    return messages;
 }
 
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const> bytes) {

@@ -6,7 +6,6 @@
 #include <lore/archive/messages.h>
 #include <lore/core/stopwatch.h>
 
-#include <algorithm>
 #include <deque>
 #include <span>
 #include <string_view>
@@ -15,9 +14,9 @@ namespace lore {
 
 namespace {
 
-/// Evaluations; about 45 kB. Of more than 64 kB Open MPI over TCP asks the receiver first, and a rank 0 that receives
-/// from many would wait for each a way there and back.
-constexpr std::size_t most_evaluations_in_one = 16;
+/// Bytes of a message with evaluations. Of more than 64 kB, its own header included, Open MPI over TCP asks the
+/// receiver first, and a rank 0 that receives from many would wait for each a way there and back.
+constexpr std::size_t longest_answer = 60'000;
 
 template <class Items>
 Bytes bytes_of(Items const& items) {
@@ -49,11 +48,8 @@ public:
 
     /// Lanes that started together end together.
     void send_finished() {
-        for (std::span<Delivery const> left{finished_}; !left.empty();) {
-            auto const batch = left.first(std::min(left.size(), most_evaluations_in_one));
-            post_.send(0, MessageKind::evaluated, 0, pack_deliveries(batch));
-            left = left.subspan(batch.size());
-        }
+        for (Bytes& message : pack_deliveries(finished_, longest_answer))
+            post_.send(0, MessageKind::evaluated, 0, std::move(message));
         finished_.clear();
     }
 

@@ -2,8 +2,8 @@
 """Nodes of a cluster on one machine: network namespaces, and between them links of a set delay and bandwidth.
 
 Messages cost what they would cost between nodes; the processors are those of this machine, which all nodes share. Needs
-root, /dev/net/tun, `ip`, `unshare` and Open MPI. scaling-report measures on them; as a program it runs a command with a
-rank on each.
+root, /dev/net/tun, `ip`, `unshare`, a C++ compiler and Open MPI. scaling-report measures on them; as a program it runs
+a command with a rank on each.
 
   tools/bench/nodes.py --nodes 4 --delay 50e-6 --bandwidth 1e9 lore-evolve jobs/tasks/source.toml --out s1
 """
@@ -13,11 +13,8 @@ import contextlib
 import ctypes
 import fcntl
 import functools
-import heapq
-import multiprocessing
 import os
 import pathlib
-import select
 import shutil
 import signal
 import struct
@@ -29,6 +26,7 @@ import time
 from measuring import Refusal, environment, main
 
 SUBNET = "10.77.0"   # of the nodes alone: no packet leaves them
+SWITCH = pathlib.Path(__file__).resolve().with_name("node_switch.cpp")
 FRAME = 32768        # bytes; long, since a frame takes the switch as much time whatever its length
 NEW_NETWORK = 0x40000000                                     # CLONE_NEWNET, of setns
 TAP, NO_HEADER, SET_INTERFACE = 0x0002, 0x1000, 0x400454CA   # of linux/if_tun.h
@@ -39,7 +37,7 @@ def why_not():
     """Why this machine cannot have nodes; empty where it can."""
     if os.geteuid() != 0:
         return "network namespaces are root's"
-    for name in ("ip", "unshare", "mpirun"):
+    for name in ("ip", "unshare", "mpirun", "c++"):
         if not shutil.which(name):
             return f"there is no program '{name}'"
     if "Open MPI" not in subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout:
@@ -80,7 +78,7 @@ class Nodes:
         with _stops_waiting():
             if self.switch:
                 self.switch.kill()
-                self.switch.join()
+                self.switch.wait()
             while running := self._processes():   # a killed mpirun leaves its ranks behind, and those may start others
                 for process in running:
                     with contextlib.suppress(ProcessLookupError):
@@ -119,10 +117,9 @@ class Nodes:
         agent.chmod(0o700)
         self.agent = str(agent)
         taps = [self._make(number, name) for number, name in enumerate(self.names)]
-        switch = multiprocessing.get_context("fork").Process(
-            target=_carry, args=(taps, self.latency, self.bandwidth), daemon=True)
-        switch.start()
-        self.switch = switch
+        switch = pathlib.Path(self.scratch.name, "switch")
+        subprocess.run(["c++", "-std=c++20", "-O2", "-o", switch, SWITCH], check=True)
+        self.switch = subprocess.Popen([switch, *map(str, (self.latency, self.bandwidth, *taps))], pass_fds=taps)
         for tap in taps:
             os.close(tap)
 
@@ -136,7 +133,6 @@ class Nodes:
             f"addr add {SUBNET}.{number + 1}/24 dev wire", "link set wire up",
             *(f"neigh replace {SUBNET}.{other + 1} lladdr {_hardware(other).hex(':')} dev wire" for other in others)]))
         return tap
-
 
     def _processes(self):
         """Those on the nodes."""
@@ -178,38 +174,6 @@ def _open_tap(namespace):
         finally:
             libc.setns(here.fileno(), NEW_NETWORK)
     return tap
-
-
-def _carry(taps, latency, bandwidth):
-    """The switch: a frame takes its sender's link as long as its bits need, begins at its receiver's link `latency`
-    later, or when that is free, and is there when that has carried it."""
-    ctypes.CDLL(None).prctl(1, signal.SIGKILL)   # PR_SET_PDEATHSIG: not to outlive a killed program
-    with contextlib.suppress(PermissionError):   # wakes before the ranks that keep the processors busy
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
-    sender_free, receiver_free = [0.0] * len(taps), [0.0] * len(taps)
-    travelling, number = [], 0
-    while True:
-        now = time.monotonic()
-        while travelling and travelling[0][0] <= now:
-            _, _, to, frame = heapq.heappop(travelling)
-            os.write(taps[to], frame)
-        wait = max(0.0, travelling[0][0] - time.monotonic()) if travelling else None
-        for tap in select.select(taps, [], [], wait)[0]:
-            source, now = taps.index(tap), time.monotonic()
-            while True:
-                try:
-                    frame = os.read(tap, FRAME + 64)
-                except BlockingIOError:
-                    break
-                to = frame[5]   # the last byte of the receiver's address
-                if frame[:5] != _hardware(0)[:5]:
-                    continue   # to all: nothing that MPI needs
-                seconds = len(frame) * 8 / bandwidth
-                begin = max(now, sender_free[source])
-                sender_free[source] = begin + seconds
-                receiver_free[to] = max(begin + latency, receiver_free[to]) + seconds
-                number += 1   # frames that arrive together stay in order
-                heapq.heappush(travelling, (receiver_free[to], number, to, frame))
 
 
 def work():

@@ -52,35 +52,36 @@ class Measured:
         half_set = self.lanes // 2
         return math.ceil(population / (ranks * half_set)) * half_set
 
-    def evaluating(self, in_all, population, ranks, distances, network, message, processors):
+    def evaluating(self, in_all, population, ranks, distances, network):
         """Seconds until all are evaluated, beside which rank 0 measures `distances` [s]. in_all: evaluation of the
         population on one rank [s]."""
         def evaluation(individuals):
             return in_all * self.in_lanes(individuals) / self.in_lanes(population)
         share = self.share(population, ranks)
         others = min(population, share * (ranks - 1))
-        beside = others * message + distances   # rank 0's
+        beside = others * self.message + distances   # rank 0's
         waves = [min(self.lanes, share - first) for first in range(0, share, self.lanes)]
-        crowd = max(1, math.ceil(math.ceil(others / share) / processors))   # a processor runs whole ranks
         latency, bandwidth = network
-        transfer = others * self("message", "evaluation", "bytes") * 8 / bandwidth
+        transfer = self.transfer(others, bandwidth)
         evaluated, link = 0.0, 0.0
         for wave in waves:
-            evaluated += evaluation(wave) * crowd
+            evaluated += evaluation(wave)
             link = max(link, evaluated) + transfer * wave / share
         last = waves[-1] / share
         of_rank_0 = (evaluation(population - others) if others < population else 0.0) + beside * (1 - last)
         return 2 * latency + max(link, max(evaluated, of_rank_0) + beside * last)
 
-    def generation(self, task, ranks, network=CLUSTERS[IDEAL], message=None, processors=math.inf):
-        """Seconds, of USUAL_POPULATION individuals: the first formula of docs/findings/scaling.md. `message`: what an
-        individual's take of rank 0 [s]; `processors`: how many the ranks share."""
+    def transfer(self, individuals, bandwidth):
+        """Seconds that their evaluations take a link."""
+        return individuals * self("message", "evaluation", "bytes") * 8 / bandwidth
+
+    def generation(self, task, ranks, network=CLUSTERS[IDEAL]):
+        """Seconds, of USUAL_POPULATION individuals: the first formula of docs/findings/scaling.md."""
         evaluation, distances, selection, files = (
             self(f"run/{task}", 1, quantity) for quantity in ("evaluation", "distances", "selection", "files"))
         if ranks == 1:
             return evaluation + distances + selection + files
-        return self.evaluating(evaluation, USUAL_POPULATION, ranks, distances, network,
-                               self.message if message is None else message, processors) + selection + files
+        return self.evaluating(evaluation, USUAL_POPULATION, ranks, distances, network) + selection + files
 
     def of_large(self, kind, ranks, network=CLUSTERS[IDEAL]):
         """(seconds of a generation, those of them in which all ranks evaluate or measure) of LARGE individuals: the
@@ -88,7 +89,7 @@ class Measured:
         wall, evaluation, distances = (self(f"large/{kind}", 1, name) for name in ("wall", "evaluation", "distances"))
         if ranks == 1:
             return wall, evaluation + distances
-        evaluating = self.evaluating(evaluation, LARGE, ranks, 0.0, network, self.message, math.inf)
+        evaluating = self.evaluating(evaluation, LARGE, ranks, 0.0, network)
         shared = evaluation * self.in_lanes(self.share(LARGE, ranks)) / self.in_lanes(LARGE)
         rest = wall - evaluation - distances   # selection, files and what no one accounts for
         pool = 2 * LARGE
@@ -107,15 +108,14 @@ class Measured:
         return evaluating + handed_on + measuring + back + rest, shared + measuring
 
     def on_nodes(self, ranks, name):
-        """Seconds of a generation of the source task on nodes that share this machine's processors. What a message
-        costs there, where one machine is sender, switch and receiver, is taken from the runs without delay."""
-        def seconds(network, message):
-            return self.generation("source", ranks, network=network, message=message, processors=self.processors)
-        least, most = 0.0, 1e-3
-        for _ in range(50):   # bisection
-            middle = (least + most) / 2
-            if seconds(NETWORKS[IDEAL], middle) < self(f"nodes/{IDEAL}", ranks, "generation"):
-                least = middle
-            else:
-                most = middle
-        return seconds(NETWORKS[name], least)
+        """Seconds of a generation of the source task (Hamming distances) on nodes that share this machine's processors:
+        the third formula of docs/findings/scaling.md."""
+        alone = self(f"nodes/{IDEAL}", ranks, "generation")
+        latency, bandwidth = NETWORKS[name]
+        wave = self.lanes   # of a rank's individuals, which are evaluated together
+        first = self("run/source", 1, "evaluation") * self.in_lanes(wave) / self.in_lanes(USUAL_POPULATION)
+        evaluated = alone - self("population", USUAL_POPULATION, "distances/hamming") \
+            - self("run/source", 1, "selection") - self("run/source", 1, "files")
+        others = min(USUAL_POPULATION, self.share(USUAL_POPULATION, ranks) * (ranks - 1))
+        last_waves = self.transfer(self.processors * wave, bandwidth)
+        return alone + 2 * latency + max(last_waves, first + self.transfer(others, bandwidth) - evaluated)

@@ -14,7 +14,7 @@ namespace lore {
 /// processors of one byte order, so that numbers travel as they lie in memory; Readers throw Error on bytes that no
 /// writer wrote.
 
-/// Left free behind distances, the longest messages, so that who sends them can add a trailer without moving them
+/// Left free behind distances and bounded messages, so that who sends them can add a trailer without moving them
 /// [bytes].
 inline constexpr std::size_t room_for_trailer = 32;
 
@@ -31,6 +31,8 @@ struct Delivery {
 /// One of 4000 steps and up to 16 channels takes 1 to 3 kB, since most steps repeat the Hamming bits of the one before;
 /// at most 9 kB, and 9 kB for each further 16 channels.
 Bytes pack_deliveries(std::span<Delivery const>);
+/// In as many messages as it takes for none to be longer than so many bytes; one that is alone in its message may be.
+std::vector<Bytes> pack_deliveries(std::span<Delivery const>, std::size_t longest);
 std::vector<Delivery> unpack_deliveries(std::span<std::byte const>);
 
 /// A pool whose distances are to be measured, and what distances of this kind compare of its members; other fields of

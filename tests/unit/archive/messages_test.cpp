@@ -47,6 +47,31 @@ TEST(Messages, carry_genomes_and_evaluations_unchanged) {
     }
 }
 
+TEST(Messages, hold_as_many_evaluations_as_their_bytes_allow_and_one_at_least) {
+    auto const genomes = mutated_genomes(40);
+    auto const deliveries = deliveries_of(genomes, 400);
+    std::size_t const together = pack_deliveries(deliveries).size();
+    for (std::size_t const longest : {std::size_t{1}, together / 40, together / 7, together - 1, together}) {
+        std::vector<Delivery> carried;
+        auto const messages = pack_deliveries(deliveries, longest);
+        for (std::size_t i = 0; i < messages.size(); ++i) {
+            auto const some = unpack_deliveries(messages[i]);
+            EXPECT_TRUE(messages[i].size() <= longest || some.size() == 1) << messages[i].size() << " " << longest;
+            carried.insert(carried.end(), some.begin(), some.end());
+            if (i + 1 == messages.size()) continue;
+            // The next evaluation would not have fitted.
+            EXPECT_GT(
+                pack_deliveries(std::span{deliveries}.subspan(carried.size() - some.size(), some.size() + 1)).size() +
+                    2,
+                longest);
+        }
+        EXPECT_EQ(carried, deliveries);
+    }
+    EXPECT_EQ(pack_deliveries(deliveries, 1).size(), 40u);
+    EXPECT_EQ(pack_deliveries(deliveries, together + 2).size(), 1u);
+    EXPECT_TRUE(pack_deliveries({}, 100).empty());
+}
+
 TEST(Messages, carry_genomes_and_evaluations_of_any_interface) {
     for (Interface const interface : {Interface{1, 1}, {19, 2}, {64, 16}}) {
         auto const genomes = mutated_genomes(12, interface);
