@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <exception>
 #include <utility>
 
 namespace lore {
@@ -29,7 +30,12 @@ Farm::Farm(Communicator communicator, EvaluationContext context)
     : parts_(std::make_unique<Parts>(std::move(communicator), std::move(context))) {}
 
 Farm::~Farm() {
-    if (parts_->state.working) stop();
+    if (!parts_->state.working) return;
+    try {
+        stop();
+    } catch (std::exception const&) {
+        // The run ends for another reason, which is told; what a damaged rank says of its times is no news.
+    }
 }
 
 Evaluator& Farm::evaluator() { return parts_->evaluations; }
