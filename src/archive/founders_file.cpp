@@ -3,6 +3,8 @@
 #include "boost_types.h"
 #include "world_json.h"
 
+#include <lore/core/whole_number.h>
+
 namespace lore {
 
 namespace {
@@ -11,12 +13,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longest_description = 1u << 20;
 constexpr std::size_t least_bytes_a_genome = 16;   ///< two counts
-
-/// Writing JSON recurses, so that a forged document must not be deep.
-bool refuse_depth(int depth, Json::parse_event_t, Json&) {
-    if (depth > 8) throw std::out_of_range("its description cannot be understood");
-    return true;
-}
 
 /// The world that a file of version 1 describes by `interface` alone.
 void set_world(InArchive& archive, Json const& interface, WorldRecord& world) {
@@ -48,7 +44,7 @@ FoundersFile unpack_founders(Payload const& payload, std::string_view name) {
         founders.world = get_world(archive);
         std::string const text = get_text(archive, longest_description);
         try {
-            Json const description = Json::parse(text, refuse_depth);
+            Json const description = Json::parse(text, refuse_deep_nesting<Json>);
             description.at("kind").get_to(founders.kind);
             if (payload.version == 1) set_world(archive, description.at("interface"), founders.world);
             founders.origin = description.at("origin").dump(2);

@@ -103,10 +103,10 @@ Choice choose_runs(CampaignPlan const& plan, std::vector<SourceRun> const& finis
             return std::tuple{distance(a), a.seed} < std::tuple{distance(b), b.seed};
         });
         if (nearest == free.end())
-            throw Error(
-                fmt::format("no source run is left for '{}'", wish->name),
-                fmt::format("{} runs are finished, {} knowledge bases need one each", finished.size(), wishes.size()),
-                "Look at 'lore-campaign status'.");
+            throw Error(fmt::format("no source run is left for '{}'", wish->name),
+                        fmt::format("{} runs are finished, {} knowledge bases need one each", finished.size(),
+                                    before.chosen.size() + wishes.size()),
+                        "Look at 'lore-campaign status'.");
         choice.chosen.push_back(chosen_from(*wish, take(nearest)));
     }
     return choice;

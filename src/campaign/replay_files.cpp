@@ -6,6 +6,7 @@
 #include <lore/core/file.h>
 #include <lore/core/input_file.h>
 #include <lore/core/shortest_digits.h>
+#include <lore/core/whole_number.h>
 #include <lore/knowledge/window.h>
 #include <lore/world/reward_text.h>
 
@@ -215,7 +216,7 @@ Replays read_scenes(CampaignDirectory const& directory) {
     Replays all;
     if (!is_there(path)) return all;
     try {
-        Json const document = Json::parse(read_text(path));
+        Json const document = Json::parse(read_text(path), refuse_deep_nesting<Json>);
         for (Json const& entry : document.at("replays")) all.replays.push_back(replay_of(entry));
         for (Json const& entry : document.at("panels")) all.panels.push_back(panel_of(entry));
     } catch (std::exception const& error) { throw Error(fmt::format("cannot read {}", path), error.what(), remedy); }

@@ -62,9 +62,12 @@ void work_through(Scheduler& scheduler, StopSignals const& signals, Board& board
 
 /// Lets no program outlive an error of our own (a full disk, say), since then no process would watch it.
 void wind_up(Scheduler& scheduler, StopSignals const& signals) {
-    scheduler.stop(true);
+    int heard = signals.requests();
+    if (heard == 0) scheduler.stop(true);   // else they have been told; a second time would end them at once
     while (count(scheduler.tasks(), Phase::working) > 0) {
         signals.sleep(1);
+        if (signals.requests() != heard) scheduler.stop(false);
+        heard = signals.requests();
         scheduler.forget_ended();
     }
 }

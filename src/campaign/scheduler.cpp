@@ -6,6 +6,7 @@
 #include <lore/campaign/state.h>
 #include <lore/core/file.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -164,6 +165,9 @@ void Scheduler::choose(Task& task) {
     }
     try {
         auto const before = recorded_choice(directory_, source.name);
+        if (before && before->outdated(plan_) != nullptr)
+            throw Error("the source runs cannot be chosen",
+                        state_of(plan_, directory_, task.step, Locks::ignored).reason, "Then run the campaign again.");
         Choice none_yet;
         none_yet.source = source.name;
         Choice choice = choose_runs(plan_, finished, without, before.value_or(none_yet));
@@ -190,6 +194,7 @@ void Scheduler::reap() {
         if (is_run(task.step)) {
             RunProgress const progress = last_progress(directory_.run(task.step.name));
             task.generation = progress.generation;
+            task.started_at = std::min(task.started_at, task.generation);   // a killed run goes on from its checkpoint
             task.best_reward = progress.best_reward;
             task.seconds = progress.seconds;
         }

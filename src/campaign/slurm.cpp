@@ -7,7 +7,6 @@
 #include <lore/core/input_file.h>
 #include <lore/core/standard_streams.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -138,7 +137,8 @@ std::string script_of(CampaignPlan const& plan, CampaignDirectory const& directo
                               job.group);
     std::vector<std::string> options{"--jobs", "1", "--ranks", std::to_string(launcher.ranks)};
     if (launcher.ranks > 1) options.insert(options.end(), {"--launch", launcher.launch});
-    if (!launcher.programs.empty()) options.insert(options.end(), {"--programs", launcher.programs});
+    if (!launcher.programs.empty())
+        options.insert(options.end(), {"--programs", fs::absolute(launcher.programs).lexically_normal().string()});
     text += fmt::format("{} run {} {} --only \"$step\" &\n", shell_text({program}), shell_text(campaign),
                         shell_text(options));
     // The first wait ends when the warning comes; the run then still has to reach its checkpoint.

@@ -27,8 +27,9 @@ std::vector<std::string> evolve_command(CampaignPlan const& plan, Launcher const
     std::vector<std::string> command;
     if (launcher.ranks > 1) {
         std::istringstream words{launcher.launch};
-        for (std::string word; words >> word;)
-            command.push_back(word == "{ranks}" ? std::to_string(launcher.ranks) : word);
+        for (std::string word; words >> word; command.push_back(word))
+            if (std::size_t const at = word.find(Launcher::ranks_mark); at != std::string::npos)
+                word.replace(at, Launcher::ranks_mark.size(), std::to_string(launcher.ranks));
     }
     command.insert(command.end(), {program(launcher, "lore-evolve"), plan.config_path(treatment), "--seed",
                                    std::to_string(seed), "--out", out, "--resume"});

@@ -164,7 +164,7 @@ ExperimentConfig parse_config(std::string_view text, std::string const& name, st
     ExperimentConfig config;
     auto const settings = settings_of(config);
     TomlTable const document = TomlTable::parse(text, name);
-    if (document.has("treatment"))
+    if (document.has("treatment") || document.has("transfer"))
         throw UsageError(name, "it is a campaign, not the configuration of a run",
                          "Run it with 'lore-campaign run', or name a configuration, such as jobs/tasks/source.toml.");
     read_settings(document, settings);

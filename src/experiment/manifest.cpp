@@ -107,17 +107,11 @@ void write_manifest(std::string const& path, Manifest const& manifest) {
     write_file_atomically(path, std::string_view{json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"});
 }
 
-/// Writing a value calls itself for each that it holds: a document of a stranger must not exhaust the stack.
-bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
-    if (depth > 64) throw std::out_of_range("it is nested too deeply");
-    return true;
-}
-
 Manifest read_manifest(std::string const& path) {
     auto const bytes = read_file(path);
     try {
         auto const* const text = reinterpret_cast<char const*>(bytes.data());
-        Json const json = Json::parse(text, text + bytes.size(), refuse_deep_nesting);
+        Json const json = Json::parse(text, text + bytes.size(), refuse_deep_nesting<Json>);
         if (int const format = whole_number<int>(json.at("format")); format > manifest_format)
             throw Error(fmt::format("cannot read {}", path),
                         fmt::format("written by a newer Lore: format {}, this one reads {}", format, manifest_format),

@@ -6,7 +6,6 @@
 #include <lore/experiment/progress_file.h>
 
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 

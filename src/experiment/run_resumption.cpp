@@ -3,7 +3,6 @@
 #include "founders.h"
 #include "run_digest.h"
 
-#include <lore/archive/atomic_file.h>
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
 #include <lore/experiment/run_directory.h>

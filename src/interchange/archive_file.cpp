@@ -5,7 +5,6 @@
 #include <lore/core/error.h>
 #include <lore/core/input_file.h>
 
-#include <cassert>
 #include <cerrno>
 #include <clocale>
 #include <cstdlib>

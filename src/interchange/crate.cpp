@@ -8,11 +8,9 @@
 #include <array>
 #include <cctype>
 #include <chrono>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace lore {
 

@@ -3,7 +3,6 @@
 #include <lore/archive/knowledge_file.h>
 #include <lore/campaign/choice.h>
 #include <lore/campaign/state.h>
-#include <lore/core/error.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/run_directory.h>
 

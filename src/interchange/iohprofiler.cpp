@@ -9,7 +9,6 @@
 #include <lore/core/file.h>
 #include <lore/experiment/config.h>
 #include <lore/experiment/manifest.h>
-#include <lore/experiment/progress_file.h>
 #include <lore/experiment/run_directory.h>
 #include <lore/world/reward_text.h>
 

@@ -2,7 +2,6 @@
 
 #include "reward_words.h"
 
-#include <lore/core/error.h>
 #include <lore/figure/axis.h>
 #include <lore/figure/svg.h>
 #include <lore/statistics/quantiles.h>

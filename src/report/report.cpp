@@ -81,7 +81,7 @@ void refuse_others(CampaignPlan const& plan, CampaignDirectory const& from) {
 void make_tables(CampaignPlan const& plan, CampaignDirectory const& from, CampaignDirectory const& into) {
     Results results = collect_results(plan, from);
     if (results.runs.empty()) refuse_others(plan, from);
-    results.replays = read_replays(into).replays;
+    if (!plan.figures.trajectory.empty()) results.replays = read_replays(into).replays;
     check_results(plan, results);
     write_results(into, results);
 }

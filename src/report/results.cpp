@@ -9,7 +9,6 @@
 #include <lore/statistics/bootstrap.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 

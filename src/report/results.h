@@ -108,8 +108,8 @@ KnowledgePlan const& origin_of(CampaignPlan const&, KnowledgePlan const&);
 
 /// final.csv, runs.csv, curves.csv, population.csv, kbs.csv, speed.csv, leads.csv (docs/manual/formats.md).
 void write_results(CampaignDirectory const&, Results const&);
-/// Reads these and the files of the step "replay". final.csv and curves.csv must be there; parts of Results whose file
-/// is missing stay empty. Throws Error.
+/// Reads these and the files of the step "replay". curves.csv and final.csv or runs.csv must be there; parts of Results
+/// whose file is missing stay empty. Throws Error.
 Results read_results(CampaignDirectory const&);
 
 }   // namespace lore

@@ -6,7 +6,6 @@
 #include <lore/core/file.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>

@@ -56,7 +56,6 @@ void add_pools(CampaignPlan const& plan, Results const& results, std::vector<Com
         document["pools"].push_back(std::move(entry));
     }
     document["planned"] = json_of(planned);
-    if (!plan.figures.figure3.empty()) document["figure3"] = plan.figures.figure3;
 }
 
 /// A campaign without [transfer] has a summary without it.
@@ -175,6 +174,7 @@ std::string summary_json(CampaignPlan const& plan, Results const& results, Findi
     document["knowledge"] = Json::array();
     for (KnowledgeRow const& base : results.bases) document["knowledge"].push_back(json_of(base, plan, word));
     add_pools(plan, results, findings.planned, document);
+    if (!plan.figures.figure3.empty()) document["figure3"] = plan.figures.figure3;
     add_matrix(findings.matrix, document);
     add_leads(results.leads, document);
     return document.dump(2) + "\n";

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -98,7 +97,10 @@ public:
                 manifest_is_read_ = true;
             }
             if (!manifest_is_read_) return;   // it is told; of what run the rows are nobody knows
-            if (progress != progress_stamp_ && progress != FileStamp{}) {
+            if (progress == FileStamp{}) {    // a run that is made again has none yet
+                progress_stamp_ = progress;
+                rows_.clear();
+            } else if (progress != progress_stamp_) {
                 progress_stamp_ = progress;
                 rows_ = read_progress(file(run_file::progress));
             }

@@ -4,7 +4,6 @@
 
 #include <lore/campaign/replay_step.h>
 #include <lore/campaign/time_left.h>
-#include <lore/core/error.h>
 #include <lore/experiment/manifest.h>
 #include <lore/experiment/run_directory.h>
 

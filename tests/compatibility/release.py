@@ -226,7 +226,7 @@ def columns(programs, work):
 
 
 def python_names():
-    """'Run.lineage', a line a public name of the package lore, lore.plot and lore_world."""
+    """'lore.Run.lineage', a line a public name of the package lore, lore.plot and lore_world."""
     sys.path.insert(0, str(SOURCE / "tools" / "python"))
     import importlib
     found = []

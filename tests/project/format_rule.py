@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Every C++ file is as clang-format 14 leaves it; no line of a CMake file, or of Python in tools, has more than 120
-columns.
+"""Every C++ file is as clang-format 14 leaves it; no line of a CMake file, or of Python in tools, programs included, has
+more than 120 columns.
 
     tests/project/format_rule.py SOURCE_DIR
 
@@ -15,9 +15,17 @@ import sys
 root = pathlib.Path(sys.argv[1])
 folders = ("src", "include", "tools", "tests", "docs/examples")
 sources = [file for folder in folders for file in sorted((root / folder).rglob("*")) if file.suffix in {".h", ".cpp"}]
+
+
+def is_python(file):
+    with file.open("rb") as opened:
+        return file.suffix == ".py" or b"python3" in opened.readline()
+
+
 breaches = [f"{file.relative_to(root)}:{number}: more than 120 columns"
-            for folder in folders for file in sorted((root / folder).rglob("*"))
-            if file.suffix == ".cmake" or file.name == "CMakeLists.txt" or (folder, file.suffix) == ("tools", ".py")
+            for file in [root / "CMakeLists.txt", *(file for folder in folders for file in (root / folder).rglob("*"))]
+            if file.suffix == ".cmake" or file.name == "CMakeLists.txt"
+            or (file.is_file() and file.is_relative_to(root / "tools") and is_python(file))
             for number, line in enumerate(file.read_text().splitlines(), 1) if len(line) > 120]
 if breaches:
     print("\n".join(breaches))

@@ -1,4 +1,4 @@
-"""What lore_world uses of Gymnasium: spaces by the names of their classes, and an environment that draws at random."""
+"""What lore_gymnasium uses of Gymnasium: spaces by the names of their classes, and an environment that draws at random."""
 from __future__ import annotations
 
 from typing import Any

@@ -132,6 +132,8 @@ TEST_F(FirstCampaign, in_the_directory_of_a_run_is_refused) {
 TEST_F(FirstCampaign, whose_launcher_is_not_installed_starts_nothing) {
     expect_refusal("run " + campaigns + "small.toml --dir never --ranks 2 --launch 'no-such-mpirun -n {ranks}'", 2,
                    "there is no program 'no-such-mpirun'");
+    expect_refusal("run " + campaigns + "small.toml --dir never --ranks 2 --launch 'true -n 2'", 2,
+                   "'true -n 2' does not say where their number belongs");
 }
 
 TEST_F(FirstCampaign, that_is_not_there_is_said_to_be_missing) {

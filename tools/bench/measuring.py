@@ -1,10 +1,12 @@
 """What bench-report, bench-compare and scaling-report share: running Lore's programs and reading what they say."""
 
+import argparse
 import csv
 import json
 import os
 import pathlib
 import re
+import signal
 import statistics
 import subprocess
 import sys
@@ -17,6 +19,7 @@ class Refusal(Exception):
 
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+_started = []   # runs of lore-evolve, none of which is to outlive main()
 
 
 # The machine
@@ -173,7 +176,9 @@ def start_evolution(build, task, directory, *, source=SOURCE, ranks=1, nodes=Non
     elif ranks > 1:
         command = ["mpirun", "-n", str(ranks), "--bind-to", "none", *command]
     with open(f"{directory}.out", "w") as out, open(f"{directory}.err", "w") as err:
-        return command, subprocess.Popen(command, stdout=out, stderr=err, env=environment())
+        process = subprocess.Popen(command, stdout=out, stderr=err, env=environment())
+    _started.append(process)
+    return command, process
 
 
 def read_evolution(command, process, directory):
@@ -248,11 +253,29 @@ def put_between_marks(path, mark, text, otherwise):
     path.write_text(new.lstrip())
 
 
+# Command lines
+
+def whole_number(least):
+    """A type of an argument."""
+    def read(text):
+        if not text.isdigit() or int(text) < least:
+            raise argparse.ArgumentTypeError(f"'{text}' is no whole number of at least {least}")
+        return int(text)
+    return read
+
+
 def main(work):
-    """Runs a program's work; what goes wrong becomes one line and exit code 1."""
+    """Runs a program's work; what goes wrong becomes one line and exit code 1. However it ends, nothing that it started
+    goes on."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         work()
     except (Refusal, OSError) as problem:
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {problem}")
     except KeyboardInterrupt:
         sys.exit(130)
+    finally:
+        for process in _started:
+            if process.poll() is None:
+                process.terminate()
+                process.wait()

@@ -188,7 +188,6 @@ def work():
     options = parser.parse_args()
     if not 2 <= options.nodes <= 200 or options.delay < 0 or options.bandwidth <= 0 or not options.command:
         parser.error("2 to 200 nodes, a delay of at least 0, a bandwidth above 0, and a command")
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))   # so that the nodes go
     with Nodes(options.nodes, latency=options.delay, bandwidth=options.bandwidth) as nodes:
         code = subprocess.run(nodes.command(options.command), env=environment(), check=False).returncode
     sys.exit(code)

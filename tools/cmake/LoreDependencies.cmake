@@ -1,8 +1,8 @@
-# Every foreign library, found once. Each enters the code by one module (docs/design/architecture.md).
+# What Lore's libraries need, found once, by Lore and by those who link them. docs/design/architecture.md says where
+# each enters.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)

@@ -35,8 +35,13 @@ void run_options(CLI::App& app, Arguments& arguments) {
 
 /// Found before the first run fails for it.
 void refuse_missing_launcher(Launcher const& launcher) {
+    if (launcher.ranks < 2) return;
+    if (launcher.launch.find(Launcher::ranks_mark) == std::string::npos)
+        throw UsageError(fmt::format("cannot start runs of {} ranks", launcher.ranks),
+                         fmt::format("'{}' does not say where their number belongs", launcher.launch),
+                         "Write {ranks} there, such as --launch 'srun --ntasks={ranks}'.");
     std::string const name = launcher.launch.substr(0, launcher.launch.find(' '));
-    if (launcher.ranks < 2 || is_program(name)) return;
+    if (is_program(name)) return;
     throw UsageError(fmt::format("cannot start runs of {} ranks", launcher.ranks),
                      fmt::format("there is no program '{}'", name),
                      "Install MPI (on Debian, the package openmpi-bin), name another launcher with --launch, or leave "

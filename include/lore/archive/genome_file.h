@@ -4,7 +4,6 @@
 #include <lore/archive/world_record.h>
 #include <lore/evolution/individual.h>
 
-#include <span>
 #include <string>
 #include <string_view>
 

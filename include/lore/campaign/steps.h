@@ -2,7 +2,6 @@
 
 #include <lore/campaign/plan.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,9 +70,10 @@ std::string usual_launch();
 /// How the programs are called.
 struct Launcher {
     std::string programs;   ///< directory of lore-evolve and lore-kb; empty: found by the shell's rules
-    std::string campaign_program = "lore-campaign";   ///< for the step "replay"
-    int ranks = 1;                                    ///< of one run; 1: started without mpirun
-    std::string launch = usual_launch();              ///< put in front of a run of several ranks
+    std::string campaign_program = "lore-campaign";             ///< for the step "replay"
+    int ranks = 1;                                              ///< of one run; 1: started without mpirun
+    std::string launch = usual_launch();                        ///< put in front of a run of several ranks
+    static constexpr std::string_view ranks_mark = "{ranks}";   ///< in `launch`: their number belongs here
 };
 
 /// The step's command line. `choice` is needed by steps that depend on "choose"; what it does not have is named "?".

@@ -58,7 +58,7 @@ struct CampaignFacts {
     std::vector<StepWithState> steps;
     std::vector<TreatmentFacts> treatments;   ///< the source task first, then in the report's order
     std::vector<FailureFacts> failures;       ///< the first 50
-    std::vector<Champion> champions;          ///< of the source task, of the target task
+    std::vector<Champion> champions;          ///< of the source task and of the target task, one each
     double share = 0;                         ///< of the planned generations, 0 to 1
     std::optional<double> seconds_left;       ///< at the present number of runs; nothing if none is running
     int count(StepStatus) const;              ///< steps

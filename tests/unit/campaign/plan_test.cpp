@@ -244,6 +244,9 @@ TEST_F(Campaign, writes_commands_that_a_shell_takes) {
     auto const words = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
     std::string const start = shell_text({words.begin(), words.begin() + 6});
     EXPECT_TRUE(start.starts_with("mpirun") && start.ends_with(" -n 4 --bind-to none lore-evolve")) << start;
+    four.launch = "srun --ntasks={ranks} --label";
+    auto const srun = command_of(campaign, CampaignDirectory{"c"}, four, steps_of(campaign).front(), nullptr);
+    EXPECT_EQ(shell_text({srun.begin(), srun.begin() + 4}), "srun --ntasks=4 --label lore-evolve");
 }
 
 namespace {

@@ -151,6 +151,27 @@ TEST_F(Runner, keeps_why_it_could_not_choose_and_draws_no_pictures_of_runs_not_c
     EXPECT_EQ(state("replay").status, StepStatus::missing);
 }
 
+TEST_F(Runner, takes_no_outdated_choice_though_choosing_has_failed_before) {
+    RunnerOptions only = options();
+    only.only = {"source", "choose"};
+    ASSERT_EQ(run_campaign(plan(), directory(), only), ExitCode::done);
+    std::string const taken = std::to_string(read_choice(directory().choice()).of("kb1").run);
+    auto const choose_with = [&](std::string const& from, std::string const& to) {
+        write("campaign.toml",
+              std::string{test::small_campaign}.replace(test::small_campaign.find(from), from.size(), to));
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(run_campaign(plan(), directory(), only), ExitCode::failure);
+        return testing::internal::GetCapturedStderr();
+    };
+    std::string const twice =
+        choose_with("[[treatment]]", "[[knowledge]]\nname = \"kb3\"\nrun = " + taken + "\n[[treatment]]");
+    EXPECT_NE(twice.find("cannot take source run " + taken + " for 'kb3'"), std::string::npos) << twice;
+    std::string const other = choose_with("balls = 6", "balls = 1");
+    EXPECT_NE(other.find("'kb1' comes from run " + taken + ", which is not what the campaign asks for now"),
+              std::string::npos)
+        << other;
+}
+
 TEST_F(Runner, starts_runs_of_one_rank_in_an_allocation_of_several_tasks) {
     ::setenv("SLURM_NTASKS", "8", 1);   // lore-evolve refuses to be one of eight that do not find each other
     RunnerOptions only = options();

@@ -169,6 +169,16 @@ TEST(Config, that_cannot_be_read_is_an_error_of_usage) {
     EXPECT_THROW(read_config(scratch.path()), UsageError);
 }
 
+TEST(Config, is_told_from_a_campaign_of_either_kind) {
+    for (std::string const text : {"title = \"a\"\n[[treatment]]\nname = \"none\"\n", "title = \"a\"\n[transfer]\n"})
+        try {
+            parse_config(text, "a.toml", "");
+            FAIL() << text;
+        } catch (UsageError const& error) {
+            EXPECT_TRUE(std::string{error.what()}.starts_with("a.toml (it is a campaign, not")) << error.what();
+        }
+}
+
 TEST(Config, and_its_arena_are_found_where_they_have_moved) {
     Scratch const scratch;
     std::filesystem::create_directories(scratch.file("jobs/tasks/arenas"));

@@ -9,7 +9,7 @@ _lore() {
   if [[ ${1##*/} == lore ]]; then
     program=("lore-${COMP_WORDS[1]}") first=2
   fi
-  if ((COMP_CWORD < first)); then
+  if ((COMP_CWORD < first)) || [[ ${COMP_WORDS[1]} == help && ${1##*/} == lore ]]; then
     words="help $(lore 2>/dev/null | sed -n 's/^  lore \([a-z]*\)  .*/\1/p')"
   else
     commands=$(_lore_commands "${program[@]}")

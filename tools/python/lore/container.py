@@ -73,13 +73,14 @@ def map_payload(path: FilePath, kind: str, check: bool = True) -> NDArray[np.uin
     with open(path, "rb") as file:
         start = file.read(HEADER_BYTES)
         length = os.fstat(file.fileno()).st_size
+        # Of the open file: another may have taken its name meanwhile.
+        file_bytes: NDArray[np.uint8] = np.memmap(file, np.uint8, "r") if length else np.empty(0, np.uint8)
     header = header_of(start, path)
     there = length - HEADER_BYTES
     if header.stored_bytes > there:
         raise Damaged(path, f"the file was cut: {there} bytes of {header.stored_bytes} are there")
     if header.stored_bytes < there:
         raise Damaged(path, f"{there - header.stored_bytes} bytes too many follow its end")
-    file_bytes: NDArray[np.uint8] = np.memmap(path, np.uint8, "r")
     payload = file_bytes[HEADER_BYTES:]
     if check and xxh3_64(payload, start[:_CHECKED_BYTES]) != header.checksum:
         raise Damaged(path, "checksum mismatch: the file was changed")

@@ -196,6 +196,8 @@ def _lines_of(path: str) -> Iterator[str]:
 
 def _individual(document: dict[str, Any]) -> Individual:
     edges = document["edges"]
+    if not all(0 <= neuron <= 255 for source, target, _ in edges for neuron in (source, target)):  # older numpy wraps
+        raise ValueError("a neuron that no network has")
     genome = Genome(
         np.array([source for source, _, _ in edges], np.uint8),
         np.array([target for _, target, _ in edges], np.uint8),

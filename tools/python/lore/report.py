@@ -144,7 +144,7 @@ class Report:
 
     @property
     def runs(self) -> Table:
-        """The same, then generations, evaluations, signature, version."""
+        """The columns of `final`, then generations, evaluations, signature, version."""
         return self._table("runs.csv", treatment="text", run="int", seed="seed", balls="int", generations="int",
                            evaluations="int", signature="text", version="text")  # fmt: skip
 

@@ -152,6 +152,8 @@ def _finite(fields: Sequence[str]) -> NDArray[np.float64]:
 
 
 def _any_number(fields: Sequence[str]) -> NDArray[np.float64]:
+    if any("_" in field for field in fields):
+        raise ValueError
     return np.array(fields, np.float64)
 
 
