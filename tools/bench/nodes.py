@@ -118,7 +118,9 @@ class Nodes:
         self.agent = str(agent)
         taps = [self._make(number, name) for number, name in enumerate(self.names)]
         switch = pathlib.Path(self.scratch.name, "switch")
-        subprocess.run(["c++", "-std=c++20", "-O2", "-o", switch, SWITCH], check=True)
+        if subprocess.run(["c++", "-std=c++20", "-O2", "-o", switch, SWITCH], check=False).returncode:
+            raise Refusal(f"{SWITCH.name} cannot be compiled (what the compiler says is above). "
+                          "Install a C++ compiler that knows C++20.")
         self.switch = subprocess.Popen([switch, *map(str, (self.latency, self.bandwidth, *taps))], pass_fds=taps)
         for tap in taps:
             os.close(tap)
