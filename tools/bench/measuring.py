@@ -264,20 +264,10 @@ def whole_number(least):
     return read
 
 
-def end_started():
-    for process in _started:
-        if process.poll() is None:
-            process.terminate()
-            process.wait()
-
-
 def main(work):
     """Runs a program's work; what goes wrong becomes one line and exit code 1. However it ends, nothing that it started
     goes on."""
-    def stop(*_):
-        end_started()   # before the folders that it writes to go
-        sys.exit(128 + signal.SIGTERM)
-    signal.signal(signal.SIGTERM, stop)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         work()
     except (Refusal, OSError) as problem:
@@ -285,4 +275,7 @@ def main(work):
     except KeyboardInterrupt:
         sys.exit(130)
     finally:
-        end_started()
+        for process in _started:
+            if process.poll() is None:
+                process.terminate()
+                process.wait()
